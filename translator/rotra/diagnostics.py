@@ -1,0 +1,77 @@
+"""What a user's mistake is answered with: a stable code, the place, the line itself and a way out.
+
+In: the findings of a stage.  Out: `Rejected`, raised once a stage with all its diagnostics.  Left to others: printing
+and the exit status (cli.py).  Any other exception is a bug of ours.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import dataclass
+from pathlib import Path
+
+from rotra.origins import Origin
+
+# Every code once, with its title; tests/test_diagnostics.py demands a case file for each.
+CODES: dict[str, str] = {
+    "IO100": "file not found or not readable",
+    "IO101": "not well-formed YAML",
+    "IO102": "a key stands twice in one mapping",
+    "IO103": "the shape is not what the schema asks for",
+    "IO104": "output would leave its folder or overwrite a foreign file",
+}
+
+
+@dataclass(frozen=True, slots=True)
+class Diagnostic:
+    """One finding.  `source_line` is the text of the line, "" where there is none to show."""
+
+    code: str
+    origin: Origin
+    message: str
+    hint: str = ""
+    source_line: str = ""
+
+    def text(self) -> str:
+        """The finding as the terminal shows it: place, code, message, the line itself, the way out."""
+        lines = [f"{self.origin.file}:{self.origin.line}: {self.code} {self.message}"]
+        if self.source_line:
+            lines.append(f"  {self.origin.line:>3} | {self.source_line}")
+        if self.hint:
+            lines.append(f"      hint: {self.hint}")
+        return "\n".join(lines)
+
+    def as_json(self) -> dict[str, object]:
+        return {
+            "code": self.code,
+            "file": self.origin.file,
+            "line": self.origin.line,
+            "message": self.message,
+            "hint": self.hint,
+            "source_line": self.source_line,
+        }
+
+
+class Rejected(Exception):
+    """The input was refused; carries at least one diagnostic, sorted by place."""
+
+    def __init__(self, diagnostics: Iterable[Diagnostic]) -> None:
+        self.diagnostics = tuple(sorted(set(diagnostics), key=lambda d: (d.origin.file, d.origin.line, d.code, d.message)))
+        super().__init__("\n".join(d.text() for d in self.diagnostics))
+
+
+def problem(code: str, origin: Origin, message: str, hint: str = "") -> Diagnostic:
+    """A diagnostic with the text of its own line read back from the file, where the file can still be read."""
+    if code not in CODES:
+        raise KeyError(f"diagnostic code {code} is not in the catalogue")
+    return Diagnostic(code, origin, message, hint, _line_of(origin))
+
+
+def _line_of(origin: Origin) -> str:
+    if not origin.line:
+        return ""
+    try:
+        lines = Path(origin.file).read_text(encoding="utf-8", errors="replace").splitlines()
+    except OSError:
+        return ""
+    return lines[origin.line - 1].rstrip() if origin.line <= len(lines) else ""
