@@ -1,0 +1,140 @@
+"""Run NuSMV on one model and say, check by check, what it answered.
+
+In: an SMV text whose specifications have names, the list of checks.  Out: `Answers`; each check is `Holds`, `Violated`
+(with the states of the trace), `Unknown` or `EngineFailed`.  Left to others: what a state means (pipeline/verify.py).
+Silence is never `Holds`: a check whose marker or verdict line is missing is `EngineFailed` (style: engines).
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+
+from rotra.engines.process import run_process
+
+_KIND = {"invariant": "check_invar", "ltl": "check_ltlspec", "ctl": "check_ctlspec"}
+_VERDICT = re.compile(r"^-- (?:invariant|specification) .* is (true|false)\s*$", re.MULTILINE)
+_NAME = re.compile(r"[A-Za-z][A-Za-z0-9_]*\Z")
+
+
+@dataclass(frozen=True, slots=True)
+class Check:
+    """One named specification to check; `trace`: is a counterexample wanted?"""
+
+    name: str
+    kind: str
+    trace: bool
+
+
+@dataclass(frozen=True, slots=True)
+class Holds:
+    pass
+
+
+@dataclass(frozen=True, slots=True)
+class Violated:
+    """`states`: qualified SMV variable -> text, one mapping a state; `loop`: index the last state returns to, or None."""
+
+    states: tuple[Mapping[str, str], ...] = ()
+    loop: int | None = None
+
+
+@dataclass(frozen=True, slots=True)
+class Unknown:
+    why: str
+
+
+@dataclass(frozen=True, slots=True)
+class EngineFailed:
+    why: str
+
+
+Answer = Holds | Violated | Unknown | EngineFailed
+
+
+@dataclass(frozen=True, slots=True)
+class Answers:
+    """`initial`: are there initial states; `total`: has every reachable state a successor; `states`: how many reachable."""
+
+    checks: Mapping[str, Answer]
+    initial: bool | None
+    total: bool | None
+    states: int | None
+    seconds: Mapping[str, float]
+    log: str
+
+
+def check_model(nusmv: Path, model: Path, checks: Sequence[Check], timeout: float) -> Answers:
+    """One process for all checks.  `timeout` in seconds is for the whole; what was not answered in time is `Unknown`."""
+    assert all(_NAME.match(c.name) for c in checks)
+    result = run_process([str(nusmv), "-dcx" if not any(c.trace for c in checks) else "-df", "-int", str(model)], timeout=timeout, stdin=_script(checks))
+    output, log = result.stdout, result.stdout + result.stderr
+    blocks = dict(re.findall(r"^@@begin (\S+)\n(.*?)^@@end \1 *$", output, re.MULTILINE | re.DOTALL))
+    answers: dict[str, Answer] = {}
+    for check in checks:
+        if check.name in blocks:
+            answers[check.name] = _answer(blocks[check.name], check)
+        elif result.timed_out:
+            answers[check.name] = Unknown(f"no answer within {timeout:g} s")
+        else:
+            answers[check.name] = EngineFailed(_complaint(log))
+    fsm = blocks.get("fsm", "")
+    total = True if "is total" in fsm and "not total" not in fsm else False if fsm else None
+    states = re.search(r"reachable states: ([0-9.e+]+)", blocks.get("reachable", ""))
+    initial = blocks.get("initial")
+    none = "set of initial states is EMPTY" in log or "initial states set is empty" in log.lower()
+    seconds = {name: float(t) for name, t in re.findall(r"^@@time (\S+)\n(?:.*\n)?elapse: ([0-9.]+) seconds", output, re.MULTILINE)}
+    return Answers(answers, None if initial is None else not none, total, int(float(states.group(1))) if states else None, seconds, log)
+
+
+def _script(checks: Sequence[Check]) -> str:
+    lines = ["unset show_defines_in_traces", "go"]
+
+    def block(name: str, *commands: str) -> None:
+        lines.extend([f'echo "@@begin {name}"', *commands, f'echo "@@end {name}"'])
+
+    block("initial")
+    block("fsm", "check_fsm")
+    block("reachable", "compute_reachable", "print_reachable_states")
+    for check in checks:
+        lines.append(("set" if check.trace else "unset") + " counter_examples")
+        block(check.name, f"{_KIND[check.kind]} -P {check.name}")
+    return "\n".join([*lines, "quit"]) + "\n"
+
+
+def _complaint(log: str) -> str:
+    lines = [line for line in log.splitlines() if line.strip() and not line.startswith(("***", "NuSMV >", "@@"))]
+    wrong = [line for line in lines if "rror" in line or "ndefined" in line or "line " in line]
+    return "NuSMV gave no verdict: " + " / ".join((wrong or lines)[-3:])
+
+
+def _answer(block: str, check: Check) -> Answer:
+    verdict = _VERDICT.search(block.replace("NuSMV > ", ""))
+    if verdict is None:
+        return EngineFailed(_complaint(block))
+    if verdict.group(1) == "true":
+        return Holds()
+    states, loop = read_trace(block) if check.trace else ((), None)
+    return Violated(states, loop)
+
+
+def read_trace(text: str) -> tuple[tuple[dict[str, str], ...], int | None]:
+    """The states of a printed trace, each complete (NuSMV prints only what changed), and where it loops back."""
+    states: list[dict[str, str]] = []
+    loop: int | None = None
+    current: dict[str, str] = {}
+    for line in text.splitlines():
+        line = line.replace("NuSMV > ", "").strip()
+        if line.startswith("-- Loop starts here"):
+            loop = len(states)
+        elif line.startswith("-> State:"):
+            current = dict(states[-1]) if states else {}
+            states.append(current)
+        elif states and " = " in line and not line.startswith(("--", "->", "@@")):
+            name, value = line.split(" = ", 1)
+            current[name.strip()] = value.strip()
+    if loop is not None and len(states) > 1 and loop < len(states) - 1 and states[-1] == states[loop]:
+        states.pop()  # NuSMV prints the state of the loop's start once more
+    return tuple(states), loop

@@ -1,0 +1,357 @@
+"""The driver's module of the model: every mind at rest that can come up, and one symbolic step from each.
+
+    at = drive_12_forward_1 & take:3 (plan hold)   ->   act wait, next(at) = hold_12_wait
+
+In: a checked Agent, the advice as rules, what can be sensed.  Out: `DriverModel` (the Part, the names of the minds, the
+plans chosen under which condition).  Left to others: the world (world.py), what is asked about it (vocabulary.py).
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterable, Iterator
+from dataclasses import dataclass, replace
+
+from rotra.diagnostics import Rejected, problem
+from rotra.frontends.agent import Agent, Plan, Rule, steps_of
+from rotra.frontends.terms import Struct, is_ground, order, show, unify
+from rotra.lowering.deliberation import Control, Event, Frame, Leaf, Machine, Moment, Pending, Stack
+from rotra.lowering.query import Indicator, Knowledge, Mind, indicator
+from rotra.origins import NOWHERE, Origin
+from rotra.system.expr import FALSE, TRUE, Expr, Value, among, choose, conj, const, disj, eq, negate, ref, var
+from rotra.system.solver import Satisfiability
+from rotra.system.transition import Definition, Part, Variable
+
+MAX_MINDS = 3000
+MAX_BELIEFS = 2000
+# of each of these percepts the car has one at a time: the last argument is a function of the others
+FUNCTIONAL = ("speed", "limit", "heading", "drives", "task", "light")
+START, RESTLESS = "start", "restless"
+
+
+@dataclass(frozen=True, slots=True)
+class Senses:
+    """What a driver may sense and do in a scenario: every percept that can occur (sorted), and the fastest move."""
+
+    percepts: tuple[Struct, ...]
+    top_speed: int
+    may_crash: bool
+
+
+@dataclass(frozen=True, slots=True)
+class Choice:
+    """A plan chosen: the definition that says when, the plan, and the reasoning cycle (for the order in a trace)."""
+
+    name: str
+    plan: Plan
+    cycle: int
+
+
+@dataclass(frozen=True, slots=True)
+class DriverModel:
+    part: Part
+    choices: tuple[Choice, ...]
+    minds: dict[str, Control]
+    acts: tuple[str, ...]
+    beliefs: tuple[Struct, ...]
+    rest: Mind
+    initial_goals: tuple[Struct, ...]
+    suffix: str = ""
+
+
+def legal_act(act: Struct, top_speed: int) -> bool:
+    """An act that the world knows, its number of cells in 1..top_speed (design, section 4)."""
+
+    def cells(term: object) -> bool:
+        return isinstance(term, int) and 1 <= term <= top_speed
+
+    match act.name, act.args:
+        case "wait", ():
+            return True
+        case "forward", (n,):
+            return cells(n)
+        case "change_lane" | "turn", (Struct(("left" | "right"), ()), n):
+            return cells(n)
+    return False
+
+
+def legal_acts(top_speed: int) -> tuple[str, ...]:
+    """Every act there is, `wait` first."""
+    sideways = (f"{name}({side},{n})" for name in ("change_lane", "turn") for side in ("left", "right") for n in range(1, top_speed + 1))
+    return ("wait", *(f"forward({n})" for n in range(1, top_speed + 1)), *sideways)
+
+
+def lower_driver(agent: Agent, advice: Iterable[Rule], senses: Senses, suffix: str = "") -> DriverModel:
+    """`suffix` keeps two drivers of one product model apart.  Errors: the AG1xx codes of the fragment, as `Rejected`."""
+    known = tuple(sorted({b for b in _initial_beliefs(agent) if indicator(b) in _dynamic(agent)}, key=show))
+    while True:
+        build = _Build(agent, tuple(advice), senses, known, suffix)
+        model = build.run()
+        found = tuple(sorted(build.instances, key=show))
+        if found == known:
+            return model
+        if len(found) > MAX_BELIEFS:
+            worst = max(found, key=lambda b: len(show(b)))
+            raise Rejected([problem("AG110", Origin(agent.file, 1), f"beliefs of the form {worst.name}/{len(worst.args)} grow without end", "keep the counter inside a bound, as in `N < 4`")])
+        known = found
+
+
+def _initial_beliefs(agent: Agent) -> Iterator[Struct]:
+    return (r.head for r in agent.knowledge if r.body.op == "true")
+
+
+def _dynamic(agent: Agent) -> frozenset[Indicator]:
+    changed: set[Indicator] = set()
+    for plan in agent.plans:
+        for step in steps_of(plan.body):
+            if step.kind in ("add", "add_end", "add_new", "del", "del_new", "update") and isinstance(step.literal, Struct):
+                changed.add(indicator(step.literal))
+            if step.kind == "internal" and step.name == ".abolish" and isinstance(step.args[0], Struct):
+                changed.add(indicator(step.args[0]))
+    return frozenset(changed)
+
+
+def _one_at_a_time(agent: Agent) -> frozenset[Indicator]:
+    """Functors of which at most one belief stands: changed by -+ and - only, at most one of them initial."""
+    result = set(_dynamic(agent))
+    for plan in agent.plans:
+        for step in steps_of(plan.body):
+            if step.kind in ("add", "add_end", "add_new") and isinstance(step.literal, Struct):
+                result.discard(indicator(step.literal))
+    for key in list(result):
+        if sum(indicator(b) == key for b in _initial_beliefs(agent)) > 1:
+            result.discard(key)
+    return frozenset(result)
+
+
+class _Build:
+    """One exploration with a fixed set of possible beliefs; collects what it finds (the only mutable thing here)."""
+
+    def __init__(self, agent: Agent, advice: tuple[Rule, ...], senses: Senses, known: tuple[Struct, ...], suffix: str) -> None:
+        self.agent, self.senses, self.known, self.suffix = agent, senses, known, suffix
+        self.instances = set(known)
+        self.definitions: dict[str, Definition] = {}
+        self.by_expr: dict[tuple[str, Expr], Expr] = {}
+        self.lookup: dict[str, Expr] = {}
+        self.solver = Satisfiability(self.lookup)
+        self.choices: list[Choice] = []
+        self.minds: dict[Control, str] = {}
+        self.exclusive()
+        rules: dict[Indicator, list[Rule]] = {}
+        for rule in (*agent.knowledge, *advice):
+            rules.setdefault(indicator(rule.head), []).append(rule)
+        percepts: dict[Indicator, list[Struct]] = {}
+        for percept in senses.percepts:
+            percepts.setdefault(indicator(percept), []).append(percept)
+        dynamic = _dynamic(agent)
+        self.knowledge = Knowledge({k: tuple(v) for k, v in rules.items()}, {k: tuple(v) for k, v in percepts.items()}, dynamic, self.percept)
+        self.machine = Machine(agent, self.knowledge, self.solver, lambda act: legal_act(act, senses.top_speed), self.name, self.select)
+        self.current = START
+
+    # ---- names ----------------------------------------------------------------------------------------------------
+
+    def own(self, name: str) -> str:
+        return name + self.suffix
+
+    def percept(self, percept: Struct) -> Expr:
+        if percept.name in FUNCTIONAL and percept.name != "light" and len(self.alike[indicator(percept)]) == 1:
+            return TRUE  # the only one there can be: the driver always senses it
+        return ref(f"p:{show(percept)}")
+
+    def exclusive(self) -> None:
+        self.alike: dict[Indicator, list[Struct]] = {}
+        for percept in self.senses.percepts:
+            self.alike.setdefault(indicator(percept), []).append(percept)
+        for name in FUNCTIONAL:
+            groups: dict[tuple[object, ...], list[Expr]] = {}
+            for percept in self.senses.percepts:
+                if percept.name == name:
+                    groups.setdefault(percept.args[:-1], []).append(self.percept(percept))
+            for parts in groups.values():
+                self.solver.at_most_one(parts)
+                if name != "light":
+                    self.solver.assume(disj(*parts))
+        single = _one_at_a_time(self.agent)
+        for key in single:
+            self.solver.at_most_one([self.belief(b) for b in self.known if indicator(b) == key])
+
+    def belief(self, literal: Struct) -> Expr:
+        return var(self.own(f"b:{show(literal)}"))
+
+    def define(self, name: str, expr: Expr, origin: Origin = NOWHERE) -> Expr:
+        name = self.own(name)
+        assert name not in self.definitions, name
+        self.definitions[name] = Definition(name, expr, origin)
+        self.lookup[name] = expr
+        return ref(name)
+
+    def name(self, literal: Struct, expr: Expr, origin: Origin, prefix: str = "q") -> Expr:
+        """A definition for the condition of a ground query, the same one wherever the condition is the same."""
+        if expr.op in ("const", "var", "ref") or (expr.op == "not" and expr.args[0].op in ("var", "ref")):
+            return expr
+        key = (f"{prefix}:{show(literal)}", expr)
+        if key not in self.by_expr:
+            number = sum(1 for title, _ in self.by_expr if title == key[0])
+            title = key[0] if not number else f"{key[0]}#{number + 1}"
+            self.by_expr[key] = self.define(title, expr, Origin(origin.file, origin.line, show(literal)))
+        return self.by_expr[key]
+
+    def select(self, plan: Plan, guard: Expr, cycle: int) -> Expr:
+        number = len(self.choices) + 1
+        origin = Origin(plan.origin.file, plan.origin.line, f"plan {plan.title}")
+        chosen = self.define(f"take:{number}", guard, origin)
+        self.choices.append(Choice(self.own(f"take:{number}"), plan, cycle))
+        return chosen
+
+    # ---- exploration ----------------------------------------------------------------------------------------------
+
+    def run(self) -> DriverModel:
+        start = Control()
+        self.minds[start] = START
+        todo, leaves = [start], []
+        at = var(self.own("at"))
+        alive = negate(ref("crashed")) if self.senses.may_crash else TRUE
+        beliefs = {b: self.belief(b) for b in self.known}
+        while todo:
+            rest = todo.pop(0)
+            name = self.minds[rest]
+            begin = self.begin(rest, first=name == START)
+            root = conj(eq(at, const(name)), alive)
+            for leaf in self.machine.step(Moment(begin, root, beliefs)):
+                after = self.settled(leaf)
+                if after not in self.minds:
+                    if len(self.minds) > MAX_MINDS:
+                        self.grows(after)
+                    self.minds[after] = RESTLESS if leaf.restless else self.title(after)
+                    if not leaf.restless:
+                        todo.append(after)
+                number = len(leaves) + 1
+                guard = self.define(f"rest:{number}", leaf.guard)
+                leaves.append((guard, leaf, self.minds[after]))
+                self.instances.update(leaf.beliefs)
+        return self.model(at, alive, leaves)
+
+    def begin(self, rest: Control, first: bool) -> Control:
+        """The control at the start of a step: last step's acts have their results, percept events are queued."""
+        events = list(rest.events)
+        if first:
+            events += [Event("+", "belief", b) for b in _initial_beliefs(self.agent) if self.machine.candidates("+", "belief", b)]
+            events += [Event("+", "achieve", goal) for goal, _ in self.agent.goals]
+        for op in "-+":
+            for percept in self.watched(op):
+                now, was = self.percept(percept), self.was(percept)
+                events.append(Event(op, "belief", percept, None, conj(now, negate(was)) if op == "+" else conj(was, negate(now))))
+        return replace(rest, old=rest.pending, pending=(), feedback=tuple(p.asked for p in rest.pending), events=tuple(e for e in events if e.present is not FALSE))
+
+    def watched(self, op: str) -> list[Struct]:
+        """The percepts whose coming (+) or going (-) some plan waits for, in the order of their events."""
+        patterns = [p.trigger.literal for p in self.agent.plans if p.trigger.type == "belief" and p.trigger.op == op]
+        return [s for s in self.senses.percepts if any(unify(p, s, {}) is not None for p in patterns)]
+
+    def was(self, percept: Struct) -> Expr:
+        return var(self.own(f"was:{show(percept)}"))
+
+    def settled(self, leaf: Leaf) -> Control:
+        """The part of a mind at rest that lasts, in normal form (decisions: equal futures, equal names)."""
+        if leaf.restless:
+            return Control(suspended=True)
+        c = leaf.control
+        pending = [Pending(self.normal(p.stack), p.act, 0 if p.asked == 0 else i + 1) for i, p in enumerate(c.pending)]
+        atomic = next((n.stack for n, p in zip(pending, c.pending, strict=True) if c.atomic is p.stack), None) if c.atomic else None
+        return Control(events=c.events, pending=tuple(pending), atomic=atomic, suspended=c.suspended)
+
+    def normal(self, stack: Stack) -> Stack:
+        """Cut out repeated frames that can only fall through: same trigger, nothing left to do, no result wanted.
+
+        Harmless because every frame from the first to the second occurrence is spent: after a success each is popped at
+        once, after a failure the handler found above leads to the same frame below (design, section 6).
+        """
+
+        def spent(i: int) -> bool:
+            f = stack[i]
+            if f.returns:
+                return False
+            below_handler = i + 1 < len(stack) and stack[i + 1].op == "-" and stack[i + 1].is_goal and f.literal == stack[i + 1].literal
+            return below_handler or (len(f.body) == 1 and f.body[0].kind == "achieve")
+
+        def same(a: Frame, b: Frame) -> bool:
+            return (a.op, a.type, a.literal) == (b.op, b.type, b.literal)
+
+        for j in range(len(stack)):
+            for i in range(len(stack) - 2, j, -1):
+                if same(stack[i], stack[j]) and all(spent(k) for k in range(j, i + 1)):
+                    cut = (*stack[: j + 1], *stack[i + 1 :])
+                    if all(any(same(f, g) for g in cut) for f in stack[j + 1 : i + 1]):
+                        return self.normal(cut)
+        return stack
+
+    def title(self, rest: Control) -> str:
+        """A readable name: the plan that waits, its line, its act; `idle` where no intention is left."""
+        if not rest.pending:
+            base = "idle"
+        else:
+            frame, act = rest.pending[0].stack[-1], rest.pending[0].act
+            plan = frame.plan
+            label = plan.label or plan.trigger.literal.name
+            base = re.sub(r"\W+", "_", f"{label}_{plan.origin.line}_{show(act)}").strip("_")
+        taken = set(self.minds.values())
+        return next(n for n in (base, *(f"{base}__{i}" for i in range(2, MAX_MINDS + 3))) if n not in taken)
+
+    def grows(self, rest: Control) -> None:
+        frame = rest.pending[0].stack[-1] if rest.pending else None
+        place = frame.plan.origin if frame else Origin(self.agent.file, 1)
+        what = f"plan {frame.plan.title}" if frame else "the agent"
+        raise Rejected([problem("AG110", place, f"{what} leads to more than {MAX_MINDS} different minds", "bound the numbers that its goals carry")])
+
+    # ---- the part -------------------------------------------------------------------------------------------------
+
+    def model(self, at: Expr, alive: Expr, leaves: list[tuple[Expr, Leaf, str]]) -> DriverModel:
+        def by_leaf(value: object, otherwise: Expr) -> Expr:
+            # leaves are exclusive, so equal values are one case
+            cases: dict[Expr, list[Expr]] = {}
+            for guard, leaf, name in leaves:
+                cases.setdefault(value(leaf, name), []).append(guard)  # type: ignore[operator]
+            return choose(*((disj(*guards), v) for v, guards in cases.items() if v is not otherwise), (TRUE, otherwise))
+
+        def act(leaf: Leaf, _: str) -> Expr:
+            first = leaf.control.acts[0][0] if leaf.control.acts else Struct("wait")
+            return const(show(first) if legal_act(first, self.senses.top_speed) else "wait")
+
+        acts = {str(act(leaf, "").args[0]) for _, leaf, _ in leaves} | {"wait"}
+        self.define("act", by_leaf(act, const("wait")))
+        self.define("at_rest", by_leaf(lambda _, name: const(name), at))
+        now: dict[Struct, Expr] = {}
+        variables = [Variable(self.own("at"), tuple(sorted(set(self.minds.values()))), (START,), ref(self.own("at_rest")))]
+        initial = frozenset(_initial_beliefs(self.agent))
+        for belief in sorted(self.instances, key=show):
+            old = self.belief(belief)
+            value = by_leaf(lambda leaf, _, b=belief, o=old: leaf.beliefs.get(b, FALSE), old)
+            now[belief] = self.define(f"now:{show(belief)}", value)
+            variables.append(Variable(self.own(f"b:{show(belief)}"), (False, True), (belief in initial,), now[belief]))
+        watched = sorted({*self.watched("+"), *self.watched("-")}, key=order)
+        for percept in watched:
+            name = self.own(f"was:{show(percept)}")
+            variables.append(Variable(name, (False, True), (False,), choose((alive, self.percept(percept)), (TRUE, var(name)))))
+        self.define("busy", disj(*(g for g, leaf, _ in leaves if len(leaf.control.acts) > 1)))
+        self.define("restless", disj(eq(at, const(RESTLESS)), *(g for g, leaf, _ in leaves if leaf.restless)))
+        minds = {name: rest for rest, name in self.minds.items()}
+        rest = Mind(self.knowledge, now, lambda desired: self.goals_at_rest(minds, desired), lambda lit, e, o: self.name(lit, e, o, "rest"), Origin(self.agent.file, 1))
+        goals = tuple(goal for goal, _ in self.agent.goals)
+        self.define("main_goal", conj(*(disj(*(g for found, g in self.goals_at_rest(minds, True) if found == goal)) for goal in goals)))
+        return DriverModel(
+            Part(f"driver{self.suffix}", tuple(variables), (), ()),
+            tuple(self.choices), minds, tuple(sorted(acts)), tuple(sorted(self.instances, key=show)), rest, goals, self.suffix,
+        )
+
+    def goals_at_rest(self, minds: dict[str, Control], desired: bool) -> list[tuple[Struct, Expr]]:
+        found: dict[Struct, set[Value]] = {}
+        for name, control in minds.items():
+            for pending in control.pending:
+                for frame in pending.stack:
+                    if frame.op == "+" and frame.type == "achieve" and is_ground(frame.literal):
+                        found.setdefault(frame.literal, set()).add(name)
+            if desired:
+                for event in control.events:
+                    if event.op == "+" and event.type == "achieve":
+                        found.setdefault(event.literal, set()).add(name)
+        return [(goal, among(ref(self.own("at_rest")), names)) for goal, names in sorted(found.items(), key=lambda f: show(f[0]))]

@@ -1,0 +1,224 @@
+"""Answer a logical formula symbolically: every substitution that may satisfy it, with the condition under which it does.
+
+    light(0,A,red) & A > 0      ->  ({A: 1}, p:light(0,1,red)), ({A: 2}, p:light(0,2,red)), ...
+
+In: Formula, a substitution, `Mind` (what is believed under which condition).  Out: `Solution`s in Jason's order.
+Left to others: which solution is taken and what then happens (mind.py).  Source of the order: Jason's belief base keeps
+initial beliefs and rules in source order; percepts are sorted (design, section 4); run-time beliefs are newest first,
+which no symbolic condition knows, so those solutions are marked `unordered`.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Iterator, Mapping
+from dataclasses import dataclass, field
+from itertools import count
+
+from rotra.diagnostics import Rejected, problem
+from rotra.frontends.agent import Formula, Rule
+from rotra.frontends.terms import Items, Struct, Substitution, Sum, Term, Var, is_ground, order, rename, resolve, show, unify, variables, walk_to
+from rotra.origins import Origin
+from rotra.system.expr import FALSE, TRUE, Expr, conj, disj, negate
+
+Indicator = tuple[str, int]
+MAX_DEPTH = 60
+
+
+def indicator(literal: Struct) -> Indicator:
+    return literal.name, len(literal.args)
+
+
+@dataclass(frozen=True, slots=True)
+class Solution:
+    bound: Substitution
+    guard: Expr
+    unordered: frozenset[Struct] = frozenset()
+
+
+@dataclass(frozen=True, slots=True)
+class Knowledge:
+    """What never changes: the rules and initial facts by functor, the percepts that can occur, the functors that change."""
+
+    rules: Mapping[Indicator, tuple[Rule, ...]]
+    percepts: Mapping[Indicator, tuple[Struct, ...]]
+    dynamic: frozenset[Indicator]
+    percept: Callable[[Struct], Expr]
+
+
+@dataclass(slots=True)
+class Mind:
+    """The symbolic mind at one moment: own beliefs under their conditions, and the goals that stand.
+
+    `goals(pattern, desired)` yields (goal literal, condition); `name(literal, expr, origin)` may give a shared name to the
+    condition of a ground query.  `memo` belongs to this moment alone.
+    """
+
+    knowledge: Knowledge
+    beliefs: Mapping[Struct, Expr]
+    goals: Callable[[bool], Iterable[tuple[Struct, Expr]]]
+    name: Callable[[Struct, Expr, Origin], Expr]
+    at: Origin
+    memo: dict[Struct, Expr] = field(default_factory=dict)
+    fresh: Iterator[int] = field(default_factory=count)
+
+
+def solve(formula: Formula, bound: Substitution, mind: Mind, depth: int = 0) -> Iterator[Solution]:
+    """All solutions in order.  Errors: AG104 a variable without a value where one is needed; AG107 recursion in rules."""
+    match formula.op:
+        case "true":
+            yield Solution(bound, TRUE)
+        case "false":
+            return
+        case "and":
+            left, right = formula.args
+            for first in solve(left, bound, mind, depth):
+                for second in solve(right, first.bound, mind, depth):
+                    guard = conj(first.guard, second.guard)
+                    if guard is not FALSE:
+                        yield Solution(second.bound, guard, first.unordered | second.unordered)
+        case "or":
+            for part in formula.args:
+                yield from solve(part, bound, mind, depth)
+        case "not":
+            guard = negate(disj(*(s.guard for s in solve(formula.args[0], bound, mind, depth))))
+            if guard is not FALSE:
+                yield Solution(bound, guard)
+        case "rel":
+            yield from _relation(formula, bound, mind)
+        case "internal":
+            yield from internal(formula.name, formula.args, bound, mind, depth)
+        case "lit":
+            yield from _literal(formula.args[0], bound, mind, depth)
+
+
+def _literal(literal: Term, bound: Substitution, mind: Mind, depth: int) -> Iterator[Solution]:
+    if depth > MAX_DEPTH:
+        raise Rejected([problem("AG107", mind.at, f"the rules for {show(literal)} call each other without end", "write rules without recursion")])
+    asked = resolve(literal, bound)
+    if not isinstance(asked, Struct):
+        raise Rejected([problem("AG104", mind.at, f"variable {show(asked)} stands for a whole query", "name the belief that is asked for")])
+    rules = mind.knowledge.rules.get(indicator(asked), ())
+    if is_ground(asked) and any(r.body.op != "true" for r in rules):
+        if asked not in mind.memo:
+            guard = disj(*(s.guard for s in _candidates(asked, {}, mind, depth)))
+            mind.memo[asked] = mind.name(asked, guard, rules[0].origin)
+        if mind.memo[asked] is not FALSE:
+            yield Solution(bound, mind.memo[asked])
+        return
+    yield from _candidates(asked, bound, mind, depth)
+
+
+def _candidates(asked: Struct, bound: Substitution, mind: Mind, depth: int) -> Iterator[Solution]:
+    knowledge, key = mind.knowledge, indicator(asked)
+    if key in knowledge.dynamic:
+        held = [(b, g) for b, g in mind.beliefs.items() if indicator(b) == key and g is not FALSE]
+        for belief, guard in sorted(held, key=lambda h: order(h[0])):
+            extended = unify(asked, belief, bound)
+            if extended is not None:
+                yield Solution(extended, guard, frozenset([belief]) if len(held) > 1 and not is_ground(asked) else frozenset())
+    for percept in knowledge.percepts.get(key, ()):
+        extended = unify(asked, percept, bound)
+        if extended is not None:
+            yield Solution(extended, knowledge.percept(percept))
+    for rule in knowledge.rules.get(key, ()):
+        if rule.body.op == "true":
+            if key not in knowledge.dynamic:
+                extended = unify(asked, rule.head, bound)
+                if extended is not None:
+                    yield Solution(extended, TRUE)
+            continue
+        suffix = f"~{next(mind.fresh)}"
+        inside = unify(rename(rule.head, suffix), asked, {})
+        if inside is None:
+            continue
+        outer = sorted(variables(asked))
+        for found in solve(_renamed(rule.body, suffix), inside, mind, depth + 1):
+            extended = dict(bound)
+            for name in outer:
+                value = resolve(Var(name), found.bound)
+                if not isinstance(value, Var):
+                    extended[name] = value
+            yield Solution(extended, found.guard, found.unordered)
+
+
+def _renamed(formula: Formula, suffix: str) -> Formula:
+    parts = tuple(_renamed(a, suffix) if isinstance(a, Formula) else rename(a, suffix) for a in formula.args)
+    return Formula(formula.op, parts, formula.name)
+
+
+def _number(term: Term, bound: Substitution, mind: Mind) -> Term:
+    value = resolve(term, bound)
+    if isinstance(value, Var | Sum):
+        name = show(term).split("~")[0]
+        raise Rejected([problem("AG104", mind.at, f"variable {name} has no finite domain", "bind it first, to a percept or a belief, as in `speed(S) & S < 3`")])
+    return value
+
+
+def _relation(formula: Formula, bound: Substitution, mind: Mind) -> Iterator[Solution]:
+    left, right = formula.args
+    match formula.name:
+        case "=":
+            if isinstance(left, Sum):
+                left = _number(left, bound, mind)
+            if isinstance(right, Sum):
+                right = _number(right, bound, mind)
+            extended = unify(left, right, bound)
+            if extended is not None:
+                yield Solution(extended, TRUE)
+            return
+        case "==" | "\\==" | "!=":
+            same = resolve(left, bound) == resolve(right, bound)
+            if same == (formula.name == "=="):
+                yield Solution(bound, TRUE)
+            return
+    a, b = order(_number(left, bound, mind)), order(_number(right, bound, mind))
+    if {"<": a < b, "<=": a <= b, ">": a > b, ">=": a >= b}[formula.name]:
+        yield Solution(bound, TRUE)
+
+
+IGNORED_ACTIONS = frozenset({".print", ".println", ".log"})
+QUERY_ACTIONS = frozenset({".intend", ".desire", ".member", ".count", ".ground"})
+
+
+def internal(name: str, args: tuple[Term, ...], bound: Substitution, mind: Mind, depth: int) -> Iterator[Solution]:
+    """The internal actions that ask something; the ones that only print are true."""
+    if name in IGNORED_ACTIONS:
+        yield Solution(bound, TRUE)
+    elif name in (".intend", ".desire"):
+        for goal, guard in mind.goals(name == ".desire"):
+            extended = unify(args[0], goal, bound)
+            if extended is not None and guard is not FALSE:
+                yield Solution(extended, guard)
+    elif name == ".member":
+        items = walk_to(args[1], bound)
+        if not isinstance(items, Items):
+            raise Rejected([problem("AG104", mind.at, f"{show(args[1])} is not a list of fixed length", "write the list out")])
+        for item in items.items:
+            extended = unify(args[0], item, bound)
+            if extended is not None:
+                yield Solution(extended, TRUE)
+    elif name == ".ground":
+        if is_ground(resolve(args[0], bound)):
+            yield Solution(bound, TRUE)
+    elif name == ".count":
+        guards = [s.guard for s in solve(Formula("lit", (args[0],)), bound, mind, depth)]
+        for total, guard in enumerate(_exactly(guards)):
+            extended = unify(args[1], total, bound)
+            if extended is not None and guard is not FALSE:
+                yield Solution(extended, guard)
+    else:
+        raise AssertionError(f"internal action {name} passed the fragment check")
+
+
+def _exactly(guards: list[Expr]) -> list[Expr]:
+    """result[n]: exactly n of the guards hold."""
+    result = [TRUE]
+    for guard in guards:
+        longer = [*result, FALSE]
+        result = [disj(conj(guard, longer[n - 1] if n else FALSE), conj(negate(guard), longer[n])) for n in range(len(longer))]
+    return result
+
+
+def holds(formula: Formula, bound: Substitution, mind: Mind) -> Expr:
+    """The condition under which the formula has a solution."""
+    return disj(*(s.guard for s in solve(formula, bound, mind)))
