@@ -49,14 +49,25 @@ class Choice:
 
 @dataclass(frozen=True, slots=True)
 class DriverModel:
-    part: Part
+    """`definitions` still grows while questions about the mind at rest are named; `driver_part` closes it.
+
+    `leaves`: the definition that says when a step ends so, and how it then ends.
+    """
+
+    variables: tuple[Variable, ...]
+    definitions: dict[str, Definition]
     choices: tuple[Choice, ...]
+    leaves: tuple[tuple[str, Leaf], ...]
     minds: dict[str, Control]
     acts: tuple[str, ...]
     beliefs: tuple[Struct, ...]
     rest: Mind
     initial_goals: tuple[Struct, ...]
     suffix: str = ""
+
+
+def driver_part(model: DriverModel) -> Part:
+    return Part(f"driver{model.suffix}", model.variables, tuple(model.definitions.values()))
 
 
 def legal_act(act: Struct, top_speed: int) -> bool:
@@ -210,7 +221,7 @@ class _Build:
         self.minds[start] = START
         todo, leaves = [start], []
         at = var(self.own("at"))
-        alive = negate(ref("crashed")) if self.senses.may_crash else TRUE
+        alive = negate(var("crashed")) if self.senses.may_crash else TRUE
         beliefs = {b: self.belief(b) for b in self.known}
         while todo:
             rest = todo.pop(0)
@@ -226,10 +237,17 @@ class _Build:
                     if not leaf.restless:
                         todo.append(after)
                 number = len(leaves) + 1
-                guard = self.define(f"rest:{number}", leaf.guard)
+                guard = self.define(f"rest:{number}", leaf.guard, self.ending(leaf))
                 leaves.append((guard, leaf, self.minds[after]))
                 self.instances.update(leaf.beliefs)
         return self.model(at, alive, leaves)
+
+    def ending(self, leaf: Leaf) -> Origin:
+        """What a step ended with: the line of the act, or of the agent where it asked for none."""
+        if not leaf.control.acts:
+            return Origin(self.agent.file, 0, "no act")
+        act, origin = leaf.control.acts[0]
+        return Origin(origin.file, origin.line, f"act {show(act)}")
 
     def begin(self, rest: Control, first: bool) -> Control:
         """The control at the start of a step: last step's acts have their results, percept events are queued."""
@@ -339,8 +357,8 @@ class _Build:
         goals = tuple(goal for goal, _ in self.agent.goals)
         self.define("main_goal", conj(*(disj(*(g for found, g in self.goals_at_rest(minds, True) if found == goal)) for goal in goals)))
         return DriverModel(
-            Part(f"driver{self.suffix}", tuple(variables), (), ()),
-            tuple(self.choices), minds, tuple(sorted(acts)), tuple(sorted(self.instances, key=show)), rest, goals, self.suffix,
+            tuple(variables), self.definitions, tuple(self.choices), tuple((guard.args[0], leaf) for guard, leaf, _ in leaves),
+            minds, tuple(sorted(acts)), tuple(sorted(self.instances, key=show)), rest, goals, self.suffix,
         )
 
     def goals_at_rest(self, minds: dict[str, Control], desired: bool) -> list[tuple[Struct, Expr]]:
