@@ -12,7 +12,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
-from rotra.engines.process import run_process
+from rotra.engines.process import run
 
 _KIND = {"invariant": "check_invar", "ltl": "check_ltlspec", "ctl": "check_ctlspec"}
 _VERDICT = re.compile(r"^-- (?:invariant|specification) .* is (true|false)\s*$", re.MULTILINE)
@@ -69,7 +69,7 @@ class Answers:
 def check_model(nusmv: Path, model: Path, checks: Sequence[Check], timeout: float) -> Answers:
     """One process for all checks.  `timeout` in seconds is for the whole; what was not answered in time is `Unknown`."""
     assert all(_NAME.match(c.name) for c in checks)
-    result = run_process([str(nusmv), "-dcx" if not any(c.trace for c in checks) else "-df", "-int", str(model)], timeout=timeout, stdin=_script(checks))
+    result = run([nusmv, "-int", model], timeout=timeout, stdin=_script(checks))
     output, log = result.stdout, result.stdout + result.stderr
     blocks = dict(re.findall(r"^@@begin (\S+)\n(.*?)^@@end \1 *$", output, re.MULTILINE | re.DOTALL))
     answers: dict[str, Answer] = {}

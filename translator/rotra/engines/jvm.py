@@ -1,0 +1,90 @@
+"""Ask the Java side: parse AgentSpeak with Jason's own parser, run a driver in its world.
+
+In: a command and a JSON job.  Out: the JSON answer.  Errors: `EngineError` where the JVM gives none.  Left to others: what
+jobs and answers mean (frontends, pipeline).  Parsed files are kept by the hash of what was parsed.
+"""
+
+from __future__ import annotations
+
+import hashlib
+import json
+import re
+from collections.abc import Callable, Mapping, Sequence
+from pathlib import Path
+from typing import Any
+
+from rotra.diagnostics import Rejected, problem
+from rotra.engines import places
+from rotra.engines.process import run
+from rotra.frontends.agent import Agent, read_agent
+from rotra.origins import Origin
+
+_INCLUDE = re.compile(r'include\(\s*"([^"]*)"')
+
+
+class EngineError(Exception):
+    """An engine gave no answer; the command ends with status 3."""
+
+
+def ask_java(command: str, job: Mapping[str, Any], timeout: float, on_line: Callable[[str], None] | None = None) -> Any:
+    """The JSON that `rotra.jason.Main <command>` answers; with `on_line`, each line as it comes, and None."""
+    listing = places.classpath_file()
+    if not listing.is_file():
+        raise EngineError("the Java side is not built: run `make setup`")
+    classes = ":".join((*map(str, places.classes()), listing.read_text().strip()))
+    outcome = run([places.java(), "-XX:+UseSerialGC", "-XX:TieredStopAtLevel=1", "-Xshare:auto", "-cp", classes, "rotra.jason.Main", command], stdin=json.dumps(job), timeout=timeout, on_line=on_line)
+    if not outcome.ok:
+        raise EngineError(outcome.why())
+    if on_line is not None:
+        return None
+    try:
+        return json.loads(outcome.stdout)
+    except ValueError as error:
+        raise EngineError(f"the Java side did not answer with JSON: {outcome.stdout[:200]!r}") from error
+
+
+def parse_agents(files: Sequence[Path], timeout: float = 60) -> tuple[Agent, ...]:
+    """The files' agents, in order.  Errors: AG100 for what Jason's parser refuses."""
+    missing = [f for f in files if not f.is_file()]
+    if missing:
+        raise Rejected([problem("AG100", Origin(str(f)), "there is no such agent file", "check the path") for f in missing])
+    stored = {f: _stored(f) for f in files}
+    todo = [f for f in files if not stored[f].is_file()]
+    if todo:
+        answer = ask_java("parse", {"files": [str(f) for f in todo]}, timeout)
+        wrong = []
+        for file, entry in zip(todo, answer["agents"], strict=True):
+            if entry.get("error"):
+                e = entry["error"]
+                wrong.append(problem("AG100", Origin(e.get("file") or str(file), max(0, e.get("line") or 0)), f"Jason's parser refuses this: {_short(e['message'])}", "mend the syntax"))
+            else:
+                stored[file].parent.mkdir(parents=True, exist_ok=True)
+                fresh = stored[file].with_suffix(".new")
+                fresh.write_text(json.dumps(entry["ast"]))
+                fresh.replace(stored[file])
+        if wrong:
+            raise Rejected(wrong)
+    return tuple(read_agent(str(f), json.loads(stored[f].read_text())) for f in files)
+
+
+def _short(message: str) -> str:
+    return re.sub(r"\s+", " ", message).strip()[:300]
+
+
+def _stored(file: Path) -> Path:
+    """Where the AST of a file is kept: named by its path, its text and the text of all it includes."""
+    digest = hashlib.sha256()
+    seen: set[Path] = set()
+    todo = [file.resolve()]
+    while todo:
+        path = todo.pop()
+        if path in seen:
+            continue
+        seen.add(path)
+        text = path.read_text(encoding="utf-8", errors="replace") if path.is_file() else ""
+        digest.update(f"{path}\0{text}\0".encode())
+        todo += [(path.parent / name).resolve() for name in _INCLUDE.findall(text)]
+    for exporter in places.classes()[0].glob("rotra/jason/Parser*.class"):
+        digest.update(exporter.read_bytes())
+    digest.update(str(file).encode())
+    return places.PROJECT / ".build" / "ast" / f"{digest.hexdigest()[:32]}.json"
