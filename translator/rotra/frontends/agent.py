@@ -30,9 +30,9 @@ class Formula:
 TRUE_FORMULA = Formula("true")
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True, slots=True, eq=False)
 class Step:
-    """One formula of a plan body.  kind: action internal achieve achieve_new test add add_end add_new del del_new update
+    """One formula of a plan body, the same as another only if it is that one (identity).  kind: action internal achieve achieve_new test add add_end add_new del del_new update
     constraint if for while fork."""
 
     kind: str
@@ -61,7 +61,7 @@ class Trigger:
         return self.op + {"belief": "", "achieve": "!", "test": "?"}[self.type] + show(self.literal)
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True, slots=True, eq=False)
 class Plan:
     label: str
     trigger: Trigger

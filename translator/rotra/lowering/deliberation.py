@@ -131,7 +131,8 @@ class Machine:
     # ---- the step ----------------------------------------------------------------------------------------------
 
     def step(self, start: Moment) -> Iterator[Leaf]:
-        """Run cycles until every branch is at rest."""
+        """Run cycles until every branch is at rest; ends with the same control are one leaf."""
+        ends: dict[Control, Moment] = {}
         level = [start]
         for self.cycle in range(MAX_CYCLES):
             merged: dict[Control, Moment] = {}
@@ -139,12 +140,13 @@ class Machine:
                 for after in self._cycle(moment):
                     for settled in self._settled(after):
                         if isinstance(settled, Leaf):
-                            yield settled
+                            _merge(ends, Moment(settled.control, settled.guard, settled.beliefs))
                         else:
                             _merge(merged, settled)
-            if not merged:
-                return
             level = list(merged.values())
+            if not level:
+                break
+        yield from (Leaf(m.control, m.guard, m.beliefs) for m in ends.values())
         for moment in level:
             yield Leaf(replace(moment.control, events=(), running=(), atomic=None, selected=None), moment.guard, moment.beliefs, True)
 
@@ -155,14 +157,10 @@ class Machine:
             yield m
         elif c.atomic is not None and c.suspended:
             yield from (Leaf(s.control, s.guard, s.beliefs) for s in self._decide_events(m))
-        elif c.running or c.atomic is not None or any(e.present is TRUE for e in c.events):
-            yield m
-        elif c.events:
-            some = disj(*(e.present for e in c.events))
-            yield from self._branch(m, some)
-            yield from (Leaf(replace(s.control, events=()), s.guard, s.beliefs) for s in self._branch(m, negate(some)))
+        elif c.running or c.atomic is not None or c.events:
+            yield m  # a cycle in which none of the perhaps-events is there changes nothing
         else:
-            yield Leaf(c, m.guard, m.beliefs)
+            yield Leaf(replace(c, selected=None), m.guard, m.beliefs)
 
     def _decide_events(self, m: Moment) -> Iterator[Moment]:
         undecided = next((i for i, e in enumerate(m.control.events) if e.present is not TRUE), None)
