@@ -60,6 +60,10 @@ class Event:
     returns: tuple[tuple[str, str], ...] = ()
 
 
+# stands for the act of an intention whose act was done: what it was no longer matters, its formula is already gone
+DONE = Struct("done")
+
+
 @dataclass(frozen=True, slots=True)
 class Pending:
     """An intention that waits for the result of its act; `asked` is its place among the acts of the step."""
@@ -234,7 +238,7 @@ class Machine:
                     return
             yield m  # no handler: the intention is gone
         elif event.stack is not None:
-            yield replace(m, control=_offer(c, _advance(event.stack)))
+            yield replace(m, control=_offer(c, advance(event.stack)))
         else:
             yield from self._deliberate(m)  # an external event without a plan costs nothing
 
@@ -265,13 +269,12 @@ class Machine:
                 continue  # its intention was dropped: Jason takes the next feedback
             c = replace(c, feedback=c.feedback[position + 1 :], old=tuple(p for p in c.old if p is not waiting))
             atomic = _is_atomic(waiting.stack)
-            if place == 0 and self.legal(waiting.act):
-                if atomic:
-                    c = replace(c, atomic=None, suspended=False)
-                yield self._done(waiting.stack, replace(m, control=c))
+            if atomic:
+                c = replace(c, atomic=None, suspended=False)
+            if waiting.act == DONE:
+                yield replace(m, control=self._clear(_offer(c, waiting.stack), waiting.stack))
             else:
                 reason = "busy" if place else "no_such_act"
-                c = replace(c, atomic=None, suspended=False) if atomic else c
                 yield self._fail(waiting.stack, replace(m, control=c), (Struct("error", (Struct("action_failed"),)), Struct(reason)))
             return
         yield replace(m, control=replace(c, feedback=()))
@@ -447,7 +450,7 @@ class Machine:
 
     def _done(self, stack: Stack, m: Moment) -> Moment:
         """The current formula is done: the intention goes on at the end of the queue; finished frames are cleared."""
-        after = self._trimmed(_advance(stack))
+        after = self.trimmed(advance(stack))
         return replace(m, control=self._clear(_offer(m.control, after), after))
 
     def _clear(self, c: Control, stack: Stack) -> Control:
@@ -459,7 +462,7 @@ class Machine:
                 stack = _popped_after_failure(stack, top.literal)
             if stack and stack[-1].body:
                 stack = (*stack[:-1], self._with_results(stack[-1], top))
-                stack = self._trimmed(_advance(stack))
+                stack = self.trimmed(advance(stack))
         return c if stack is queued else _replaced(c, queued, stack)
 
     def _with_results(self, below: Frame, top: Frame) -> Frame:
@@ -564,7 +567,7 @@ class Machine:
     def rebound(self, frame: Frame, bound: Substitution) -> Frame:
         return replace(frame, bound=_kept(bound, self.live_in(frame.body) | {n for n, _ in frame.returns}))
 
-    def _trimmed(self, stack: Stack) -> Stack:
+    def trimmed(self, stack: Stack) -> Stack:
         if not stack:
             return stack
         top = stack[-1]
@@ -598,7 +601,14 @@ def _step_variables(step: Step) -> frozenset[str]:
     return frozenset(names)
 
 
-def _advance(stack: Stack) -> Stack:
+def step_key(step: Step) -> tuple[object, ...]:
+    """Equal for steps that do the same, wherever they stand."""
+    branches = tuple((condition, tuple(map(step_key, body))) for condition, body in step.branches)
+    otherwise = None if step.otherwise is None else tuple(map(step_key, step.otherwise))
+    return (step.kind, step.literal, step.formula, step.name, step.args, branches, otherwise)
+
+
+def advance(stack: Stack) -> Stack:
     return (*stack[:-1], replace(stack[-1], body=stack[-1].body[1:]))
 
 

@@ -13,9 +13,9 @@ from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, replace
 
 from rotra.diagnostics import Rejected, problem
-from rotra.frontends.agent import Agent, Plan, Rule, steps_of
+from rotra.frontends.agent import Agent, Plan, Rule, Step, steps_of
 from rotra.frontends.terms import Struct, is_ground, order, show, unify
-from rotra.lowering.deliberation import Control, Event, Frame, Leaf, Machine, Moment, Pending, Stack
+from rotra.lowering.deliberation import DONE, Control, Event, Frame, Leaf, Machine, Moment, Pending, Stack, advance, step_key
 from rotra.lowering.query import Indicator, Knowledge, Mind, indicator
 from rotra.origins import NOWHERE, Origin
 from rotra.system.expr import FALSE, TRUE, Expr, Value, among, choose, conj, const, disj, eq, negate, ref, var
@@ -147,6 +147,8 @@ class _Build:
         self.solver = Satisfiability(self.lookup)
         self.choices: list[Choice] = []
         self.minds: dict[Control, str] = {}
+        self.steps: dict[tuple[object, ...], Step] = {}
+        self.plans: dict[tuple[object, ...], Plan] = {}
         self.exclusive()
         rules: dict[Indicator, list[Rule]] = {}
         for rule in (*agent.knowledge, *advice):
@@ -274,9 +276,23 @@ class _Build:
         if leaf.restless:
             return Control(suspended=True)
         c = leaf.control
-        pending = [Pending(self.normal(p.stack), p.act, 0 if p.asked == 0 else i + 1) for i, p in enumerate(c.pending)]
+        pending = [self.waiting(p, i) for i, p in enumerate(c.pending)]
         atomic = next((n.stack for n, p in zip(pending, c.pending, strict=True) if c.atomic is p.stack), None) if c.atomic else None
         return Control(events=c.events, pending=tuple(pending), atomic=atomic, suspended=c.suspended)
+
+    def waiting(self, p: Pending, position: int) -> Pending:
+        if p.asked == 0 and legal_act(p.act, self.senses.top_speed):
+            return Pending(self.shared(self.normal(self.machine.trimmed(advance(p.stack)))), DONE, 0)
+        return Pending(self.shared(self.normal(p.stack)), Struct("refused"), 0 if p.asked == 0 else position + 1)
+
+    def shared(self, stack: Stack) -> Stack:
+        """The same stack with bodies that do the same made one: minds with equal futures get one name."""
+        frames = []
+        for f in stack:
+            body = tuple(self.steps.setdefault(step_key(s), s) for s in f.body)
+            plan = self.plans.setdefault((f.op, f.type, indicator(f.literal), f.plan.atomic, body), f.plan)
+            frames.append(replace(f, body=body, plan=plan))
+        return tuple(frames)
 
     def normal(self, stack: Stack) -> Stack:
         """Cut out repeated frames that can only fall through: same trigger, nothing left to do, no result wanted.
@@ -304,14 +320,13 @@ class _Build:
         return stack
 
     def title(self, rest: Control) -> str:
-        """A readable name: the plan that waits, its line, its act; `idle` where no intention is left."""
+        """A readable name: the goal that waits and its line; `idle` where no intention is left."""
         if not rest.pending:
             base = "idle"
         else:
-            frame, act = rest.pending[0].stack[-1], rest.pending[0].act
-            plan = frame.plan
-            label = plan.label or plan.trigger.literal.name
-            base = re.sub(r"\W+", "_", f"{label}_{plan.origin.line}_{show(act)}").strip("_")
+            stack = rest.pending[0].stack
+            goals = [f.literal.name for f in stack]
+            base = re.sub(r"\W+", "_", f"{'_'.join(goals[-3:])}_{stack[-1].plan.origin.line}").strip("_")
         taken = set(self.minds.values())
         return next(n for n in (base, *(f"{base}__{i}" for i in range(2, MAX_MINDS + 3))) if n not in taken)
 
