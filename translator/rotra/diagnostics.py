@@ -19,6 +19,21 @@ CODES: dict[str, str] = {
     "IO102": "a key stands twice in one mapping",
     "IO103": "the shape is not what the schema asks for",
     "IO104": "output would leave its folder or overwrite a foreign file",
+    "AG100": "Jason's parser refuses the agent",
+    "AG101": "no such act",
+    "AG102": "internal action not translated",
+    "AG103": "depends on the clock or on chance",
+    "AG104": "a variable without a finite domain",
+    "AG105": "recursion that grows the mind",
+    "AG106": "the answer depends on which belief was added last",
+    "AG107": "rules that call each other without end",
+    "AG108": "a goal that calls itself last and returns a value",
+    "AG109": "too many events in one step",
+    "AG110": "unbounded counting",
+    "AG111": "a trigger on a derived literal",
+    "AG112": "an own belief named like a percept",
+    "AG113": "construct outside the fragment",
+    "AG114": "annotation outside the fragment",
 }
 
 
