@@ -1,0 +1,424 @@
+"""The command line: the only place that prints and picks the exit status.
+
+Exit status, the first that applies: 2 the input was refused, 3 an engine failed, 1 something is not as expected, 0.
+In: arguments.  Out: tables and pictures, or with --json one JSON document.  Left to others: all work (pipeline/).
+"""
+
+from __future__ import annotations
+
+import json
+import sys
+from collections.abc import Callable
+from functools import wraps
+from pathlib import Path
+from typing import Any
+
+import click
+from rich.console import Console
+from rich.progress import BarColumn, MofNCompleteColumn, Progress, SpinnerColumn, TextColumn, TimeElapsedColumn
+from rich.table import Table
+
+from rotra.diagnostics import Diagnostic, Rejected
+from rotra.engines.jvm import EngineError
+
+REFUSED, FAILED, UNEXPECTED = 2, 3, 1
+errors = Console(stderr=True, highlight=False)
+screen = Console(highlight=False)
+_MARK = {"holds": "[green]holds[/]", "violated": "[red]violated[/]", "vacuous": "[yellow]vacuous[/]", "unknown": "[magenta]unknown[/]"}
+
+
+def say_json(document: Any) -> None:
+    click.echo(json.dumps(document, indent=2, sort_keys=True, ensure_ascii=False))
+
+
+def say(text: str) -> None:
+    click.echo(text)
+
+
+def warn(diagnostics: tuple[Diagnostic, ...]) -> None:
+    for d in diagnostics:
+        click.echo(d.text(), err=True)
+
+
+def answered(command: Callable[..., int | None]) -> Callable[..., None]:
+    """Turn what a command raises into messages and an exit status."""
+
+    @wraps(command)
+    def run(*args: Any, **kwargs: Any) -> None:
+        as_json = bool(kwargs.get("as_json"))
+        try:
+            status = command(*args, **kwargs) or 0
+        except Rejected as refusal:
+            if as_json:
+                say_json({"error": [d.as_json() for d in refusal.diagnostics]})
+            else:
+                warn(refusal.diagnostics)
+            status = REFUSED
+        except EngineError as failure:
+            if as_json:
+                say_json({"error": [{"code": "EN100", "message": str(failure)}]})
+            else:
+                click.echo(f"EN100 an engine failed: {failure}", err=True)
+            status = FAILED
+        except BrokenPipeError:
+            status = 0
+        sys.exit(status)
+
+    return run
+
+
+as_json = click.option("--json", "as_json", is_flag=True, help="Print one JSON document and nothing else.")
+rules_option = click.option("--rules", default="uk", show_default=True, help="A shipped rule base or a folder.")
+instance_all = click.option("--instance", type=click.Choice(["published", "all"]), default="all", show_default=True)
+instance_published = click.option("--instance", type=click.Choice(["published", "all"]), default="published", show_default=True)
+
+
+@click.group(context_settings={"help_option_names": ["-h", "--help"]})
+@click.version_option(package_name="rotra")
+def main() -> None:
+    """Rules of the Road Advisor, formally checked."""
+
+
+@main.command()
+@as_json
+@answered
+def doctor(as_json: bool) -> int:
+    """Say what is installed, and what is missing with the command that installs it."""
+    from rotra.pipeline.doctor import examine
+
+    findings = examine()
+    if as_json:
+        say_json({"findings": [{"name": f.name, "found": f.found, "install": f.install} for f in findings]})
+    else:
+        table = Table("part", "found", "to install it")
+        for f in findings:
+            table.add_row(f.name, f.found or "[red]missing[/]", "" if f.found else f.install)
+        screen.print(table)
+    return 0 if all(f.found for f in findings) else FAILED
+
+
+@main.command("list")
+@as_json
+@answered
+def list_(as_json: bool) -> None:
+    """Name what ships."""
+    from rotra.pipeline.listing import shipped
+
+    found = shipped()
+    if as_json:
+        say_json(found)
+        return
+    for kind, entries in found.items():
+        table = Table(kind, "what it is")
+        for name, about in entries.items():
+            table.add_row(name, about)
+        screen.print(table)
+
+
+@main.command()
+@click.argument("folder", type=click.Path(path_type=Path))
+@as_json
+@answered
+def init(folder: Path, as_json: bool) -> None:
+    """Make a starter project of your own in FOLDER."""
+    from rotra.pipeline.starter import make_project
+
+    made = make_project(folder)
+    if as_json:
+        say_json({"files": [str(p) for p in made]})
+    else:
+        for path in made:
+            say(f"made {path}")
+        say(f"read {folder}/README.md next")
+
+
+@main.command()
+@click.argument("agent")
+@rules_option
+@as_json
+@answered
+def check(agent: str, rules: str, as_json: bool) -> int:
+    """Lint AGENT: the fragment, its acts, the directives it names, two acts in a step."""
+    from rotra.pipeline.check import check_agent
+
+    found = check_agent(agent, rules)
+    if as_json:
+        say_json({"findings": [d.as_json() for d in found]})
+    elif found:
+        for d in found:
+            say(d.text())
+    else:
+        say(f"{agent}: nothing to complain about")
+    return UNEXPECTED if found else 0
+
+
+@main.command()
+@click.option("--context", default="standard", show_default=True)
+@click.option("--believes", multiple=True, help="A belief; may be repeated or hold several, separated by commas.")
+@click.option("--intends", multiple=True, help="An intention; as --believes.")
+@click.option("--strict", is_flag=True, help="Refuse words that the ontology does not know.")
+@click.option("--from", "source", type=click.Path(path_type=Path), help="Situations, one JSON object a line.")
+@rules_option
+@as_json
+@answered
+def advise(context: str, believes: tuple[str, ...], intends: tuple[str, ...], strict: bool, source: Path | None, rules: str, as_json: bool) -> int:
+    """Ask what the rules demand in a situation."""
+    from rotra.pipeline.advise import advise_lines, advise_one
+
+    if source is not None:
+        status = 0
+        for answer in advise_lines(rules, source, strict):
+            click.echo(json.dumps(answer, sort_keys=True))
+            status = REFUSED if "error" in answer else status
+        return status
+
+    def words(given: tuple[str, ...]) -> tuple[str, ...]:
+        return tuple(w.strip() for g in given for w in g.split(",") if w.strip())
+
+    answer = advise_one(rules, context, words(believes), words(intends), strict)
+    if as_json:
+        say_json(answer)
+        return 0
+    for word in answer["unknown"]:
+        click.echo(f"warning: {word!r} is not a word of this rule base; it is left out", err=True)
+    table = Table("label", "action", "rules")
+    for d in answer["directives"]:
+        table.add_row(d["label"], d["action"], ", ".join(d["rules"]))
+    screen.print(table)
+    return 0
+
+
+@main.group()
+def rules() -> None:
+    """Look at a rule base."""
+
+
+@rules.command("list")
+@rules_option
+@as_json
+@answered
+def rules_list(rules: str, as_json: bool) -> None:
+    """Every rule in a line."""
+    from rotra.pipeline.rules_view import list_rules
+
+    rows = list_rules(rules)
+    if as_json:
+        say_json({"rules": rows})
+        return
+    table = Table("rule", "paragraph", "what it says", "directives")
+    for row in rows:
+        table.add_row(row["id"], str(row["paragraph"]), row["says"], ", ".join(row["directives"]))
+    screen.print(table)
+
+
+@rules.command("show")
+@click.argument("rule")
+@rules_option
+@as_json
+@answered
+def rules_show(rule: str, rules: str, as_json: bool) -> None:
+    """One rule, whole."""
+    from rotra.pipeline.rules_view import show_rule
+
+    found = show_rule(rules, rule)
+    if as_json:
+        say_json(found)
+    else:
+        for key, value in found.items():
+            say(f"{key:>12}  {', '.join(map(str, value)) if isinstance(value, list | tuple) else value}")
+
+
+@main.command()
+@click.option("--agent", required=True)
+@click.option("--scenario", required=True)
+@click.option("-o", "--output", required=True, type=click.Path(path_type=Path))
+@instance_all
+@rules_option
+@as_json
+@answered
+def translate(agent: str, scenario: str, output: Path, instance: str, rules: str, as_json: bool) -> None:
+    """Write the Jason project, the SMV model and the map of names between them."""
+    from rotra.pipeline.translate import translate_to
+
+    made = translate_to(agent, scenario, instance, rules, output)
+    if as_json:
+        say_json({"files": [str(p) for p in made]})
+    else:
+        for path in made:
+            say(f"wrote {path}")
+
+
+@main.command()
+@click.option("--agent", "agents", multiple=True, help="A shipped driver or an .asl file; all shipped ones if left out.")
+@click.option("--scenario", "scenarios", multiple=True, help="A shipped scenario or a file; all shipped ones if left out.")
+@click.option("--property", "names", multiple=True, help="The id of a property; all if left out.")
+@click.option("--properties", "catalogues", multiple=True, help="A properties file of your own, instead of the catalogue.")
+@instance_all
+@rules_option
+@click.option("-o", "--output", type=click.Path(path_type=Path), help="Write models, verdicts, counterexamples and witnesses here.")
+@click.option("--jobs", default=2, show_default=True, type=click.IntRange(1, 64))
+@click.option("--timeout", default=120.0, show_default=True, help="Seconds for one driver in one scenario.")
+@click.option("--timings", is_flag=True, help="Print the seconds of each phase.")
+@as_json
+@answered
+def verify(agents: tuple[str, ...], scenarios: tuple[str, ...], names: tuple[str, ...], catalogues: tuple[str, ...], instance: str, rules: str, output: Path | None, jobs: int, timeout: float, timings: bool, as_json: bool) -> int:
+    """Prove the properties of drivers in scenarios."""
+    from rotra.pipeline.campaign import Wanted, run_campaign
+
+    wanted = Wanted(agents, scenarios, names, catalogues, instance, rules, output, jobs, timeout)
+    columns = (SpinnerColumn(), TextColumn("{task.description}"), BarColumn(), MofNCompleteColumn(), TimeElapsedColumn())
+    with Progress(*columns, console=errors, transient=True, disable=as_json or not errors.is_terminal) as progress:
+        task = progress.add_task("proving", total=None)
+
+        def on_done(what: str, done: int, total: int) -> None:
+            progress.update(task, completed=done, total=total, description=what)
+
+        result = run_campaign(wanted, on_done)
+    if as_json:
+        say_json({"verdicts": [row.as_json() for row in result.rows], **({"timings": result.timings} if timings else {})})
+    else:
+        _matrix(result.rows)
+        for note in result.notes:
+            say(f"note: {note}")
+        if timings:
+            table = Table("phase", "seconds")
+            for phase, seconds in result.timings.items():
+                table.add_row(phase, f"{seconds:.2f}")
+            screen.print(table)
+    if any(row.failed for row in result.rows):
+        return FAILED
+    return UNEXPECTED if any(row.as_expected is False or row.verdict == "unknown" for row in result.rows) else 0
+
+
+def _matrix(rows: tuple[Any, ...]) -> None:
+    for scenario in dict.fromkeys(r.scenario for r in rows):
+        here = [r for r in rows if r.scenario == scenario]
+        drivers = list(dict.fromkeys(r.agent for r in here))
+        table = Table(f"{scenario} ({here[0].instance})", *drivers)
+        for name in dict.fromkeys(r.property for r in here):
+            cells = []
+            for d in drivers:
+                row = next((r for r in here if r.agent == d and r.property == name), None)
+                cells.append("" if row is None else _MARK[row.verdict] + ("" if row.as_expected is not False else f" [red]!! {row.expected} expected[/]"))
+            table.add_row(name, *cells)
+        screen.print(table)
+    for row in rows:
+        if row.as_expected is False:
+            reason = f": {row.reason}" if row.reason else ""
+            say(f"{row.agent} in {row.scenario}: {row.property} is {row.verdict}, {row.expected} was expected{reason}")
+    counts = {v: sum(r.verdict == v for r in rows) for v in _MARK}
+    as_expected = sum(r.as_expected is not False for r in rows)
+    say(f"{len(rows)} verdicts: " + ", ".join(f"{n} {v}" for v, n in counts.items() if n) + f"; {as_expected} as expected, {len(rows) - as_expected} not")
+
+
+@main.command()
+@click.option("--agent", required=True)
+@click.option("--scenario", required=True)
+@click.option("--steps", default=40, show_default=True, type=click.IntRange(1, 10_000_000))
+@instance_published
+@rules_option
+@click.option("--seed", type=int, default=None, help="Chance for all that the instance leaves open.")
+@click.option("--until", type=click.Choice(["crashed", "finished"]), default=None)
+@click.option("--trace", "trace_file", type=click.Path(path_type=Path), help="Write the trace as JSON.")
+@click.option("--watch", is_flag=True, help="Step through the run on the screen.")
+@as_json
+@answered
+def run(agent: str, scenario: str, steps: int, instance: str, rules: str, seed: int | None, until: str | None, trace_file: Path | None, watch: bool, as_json: bool) -> int:
+    """Drive an agent in Jason."""
+    from rotra.pipeline.drive import drive, write_trace
+
+    trace = drive(agent, scenario, steps, instance, rules, seed, until)
+    if trace_file is not None:
+        write_trace(trace_file, trace)
+    if as_json:
+        say_json(trace)
+    else:
+        _show_run(trace, watch)
+    return UNEXPECTED if trace.get("fault") else 0
+
+
+def _show_run(trace: dict[str, Any], watch: bool) -> None:
+    from rotra.pipeline.draw import draw_step
+
+    if watch:
+        for step in trace["steps"]:
+            screen.clear()
+            say(draw_step(trace["rows"], step))
+            if sys.stdin.isatty():
+                click.pause("any key for the next step")
+        return
+    table = Table("step", "at", "speed", "lights", "intends", "must", "should", "act", "ignored")
+    for s in trace["steps"]:
+        car = s["cars"].get("driver", {})
+        place = f"{car['x']},{car['y']} {car['heading']}" if car else ""
+        advice = s.get("advice", [])
+        table.add_row(
+            str(s["step"]), place + (" [red]crashed[/]" if car.get("crashed") else ""), str(car.get("speed", "")), ", ".join(f"{k} {v}" for k, v in s.get("lights", {}).items()),
+            ", ".join(s.get("situation", {}).get("intentions", [])), *(str(sum(d["label"] == label for d in advice)) for label in ("must", "should")),
+            s.get("acts", {}).get("driver", ""), ", ".join(f"{d['label']} {d['action']}" for d in s.get("ignored", [])),
+        )
+    screen.print(table)
+    if trace.get("fault"):
+        say(f"fault: {trace['fault']}")
+
+
+@main.command()
+@click.argument("trace", type=click.Path(path_type=Path))
+@click.option("--full", is_flag=True, help="All of every step, not only what changed.")
+@rules_option
+@answered
+def explain(trace: Path, full: bool, rules: str) -> None:
+    """Tell a trace in the words of the rules and plans."""
+    from rotra.frontends.rules import load_rule_base
+    from rotra.pipeline.explain import explain as tell
+    from rotra.pipeline.explain import read_trace
+
+    document = read_trace(trace)
+    base = load_rule_base(document.get("rules") or rules)
+    say(tell(document, full, {r.id: (str(r.paragraph), r.says) for r in base.rules}))
+
+
+@main.command()
+@click.argument("trace", type=click.Path(path_type=Path))
+@as_json
+@answered
+def replay(trace: Path, as_json: bool) -> int:
+    """Drive the path of a trace in Jason and say whether it happens there."""
+    from rotra.pipeline.explain import read_trace
+    from rotra.pipeline.replay import replay_trace
+
+    divergence = replay_trace(read_trace(trace))
+    if as_json:
+        say_json({"happened": divergence is None, "divergence": divergence})
+    elif divergence is None:
+        say("it happened: Jason took the same path")
+    else:
+        say(f"it parts at step {divergence['step']}: {divergence['what']} is {divergence['jason']} in Jason, {divergence['trace']} in the trace")
+    return 0 if divergence is None else UNEXPECTED
+
+
+@main.command()
+@click.argument("first")
+@click.argument("second")
+@click.option("--scenario", "scenarios", multiple=True, help="A shipped scenario or a file; all shipped ones if left out.")
+@instance_all
+@rules_option
+@click.option("--timeout", default=120.0, show_default=True)
+@as_json
+@answered
+def compare(first: str, second: str, scenarios: tuple[str, ...], instance: str, rules: str, timeout: float, as_json: bool) -> int:
+    """Are two drivers the same, and if not, where do they part?"""
+    from rotra.pipeline.compare import compare_drivers
+
+    answers = compare_drivers(first, second, scenarios, instance, rules, timeout)
+    equal = all(a["equal"] for a in answers)
+    if as_json:
+        say_json({"equal": equal, "divergence": next((a["divergence"] for a in answers if not a["equal"]), None), "scenarios": answers})
+    else:
+        for a in answers:
+            say(f"{a['scenario']}: " + ("the same act in every step" if a["equal"] else f"they part in step {a['divergence']['step']}: {a['divergence']['first']} and {a['divergence']['second']}"))
+    return 0 if equal else UNEXPECTED
+
+
+if __name__ == "__main__":
+    main()
