@@ -34,6 +34,10 @@ CODES: dict[str, str] = {
     "AG112": "an own belief named like a percept",
     "AG113": "construct outside the fragment",
     "AG114": "annotation outside the fragment",
+    "AG116": "no such agent",
+    "AG120": "a directive that no rule gives",
+    "AG121": "two acts in one step",
+    "PR110": "no such property",
 }
 
 

@@ -34,7 +34,25 @@ def trace_steps(model: Model, states: Sequence[Mapping[str, Value]]) -> list[dic
     system = model.everything()
     definitions = system.definitions()
     percepts = tuple(name for name in definitions if name.startswith("p:"))
-    return [_record(n, model, situation, wanted, own, percepts, state, definitions) for n, state in enumerate(states, start=1)]
+    records = [_record(n, model, situation, wanted, own, percepts, state, definitions) for n, state in enumerate(states, start=1)]
+    if records and not model.scenario.is_open:
+        records[0]["start"] = _start(model, states[0])
+    return records
+
+
+def _start(model: Model, state: Mapping[str, Value]) -> dict[str, Any]:
+    """What the world chose at the start, as the Java world reads it (`Start`)."""
+
+    def initial(name: str, otherwise: Value) -> Value:
+        return state.get(name, otherwise)
+
+    scenario = model.scenario
+    return {
+        "driverAt": [initial("x", scenario.driver.at.published[0]), initial("y", scenario.driver.at.published[1])],
+        "phases": {light.name: initial(f"phase_{light.name}", light.phase.published) for light in scenario.lights},
+        "trafficAt": {c.name: [initial(f"car_{c.name}_x", c.at.published[0]), initial(f"car_{c.name}_y", c.at.published[1])] for c in scenario.traffic},
+        "trafficSpeed": {c.name: initial(f"car_{c.name}_speed", c.speed.published) for c in scenario.traffic},
+    }
 
 
 def _record(number: int, model: Model, situation: Situation, wanted: Mapping[Any, tuple[Expr, Expr, Expr]], own: Mapping[Any, Expr], percepts: Iterable[str], state: Mapping[str, Value], definitions: Mapping[str, Expr]) -> dict[str, Any]:

@@ -1,0 +1,43 @@
+"""Drive an agent in Jason, in lockstep with the Java world, and give back its trace.
+
+In: names or paths, the instance, a seed.  Out: a trace document.  Left to others: showing it (draw.py, explain.py).
+"""
+
+from __future__ import annotations
+
+import json
+import tempfile
+from pathlib import Path
+from typing import Any
+
+from rotra.engines.jvm import ask_java
+from rotra.frontends.scenario import Scenario, instance, resolve_scenario, scenario_json
+from rotra.pipeline.campaign import trace_document
+from rotra.pipeline.inputs import Driver, Law, check_driver, load_drivers, load_law
+
+
+def drive(agent: str, scenario: str, steps: int, which: str, rules: str, seed: int | None, until: str | None) -> dict[str, Any]:
+    """A run of at most `steps` steps; without a seed the published start is taken and nobody hesitates."""
+    (driver,) = load_drivers([agent])
+    law = load_law(rules)
+    world = instance(resolve_scenario(scenario), which)
+    check_driver(driver, world)
+    answer = run_in_jason(driver, law, world, steps, {"start": None, "seed": seed if seed is not None else 0 if which == "all" else None, "choices": None, "percepts": None, "until": until})
+    document = trace_document(driver, world, which, rules, answer["steps"], None, None, None, None)
+    return {**document, "seed": seed, "fault": answer.get("fault"), "steps_per_second": answer.get("steps_per_second")}
+
+
+def run_in_jason(driver: Driver, law: Law, world: Scenario, steps: int, job: dict[str, Any]) -> dict[str, Any]:
+    """The Java side's answer to a run; `job` gives start, seed, choices, percepts and until."""
+    with tempfile.TemporaryDirectory(prefix="rotra-") as folder:
+        advice = Path(folder) / "advice.asl"
+        advice.write_text(law.text, encoding="utf-8")
+        request = {"agent": str(driver.file), "rules": str(advice), "world": scenario_json(world), "steps": steps, "trace": True, "cap": 500, **job}
+        answer = ask_java("run", request, timeout=60 + steps / 100)
+    assert isinstance(answer, dict)
+    return answer
+
+
+def write_trace(path: Path, trace: dict[str, Any]) -> None:
+    path.parent.mkdir(parents=True, exist_ok=True)
+    path.write_text(json.dumps(trace, indent=1, sort_keys=True) + "\n", encoding="utf-8")

@@ -1,0 +1,63 @@
+"""Does the path of a trace happen in the running Jason system?
+
+In: a trace document (of the model or of a run).  Out: None, or the first difference.  Left to others: finding the path.
+The start and the choices of the world are taken from the trace; all else is Jason's and the Java world's.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any
+
+from rotra.diagnostics import Rejected, problem
+from rotra.frontends.scenario import instance, resolve_scenario
+from rotra.origins import Origin
+from rotra.pipeline.drive import run_in_jason
+from rotra.pipeline.inputs import check_driver, load_drivers, load_law
+
+# what must agree, step by step; the order is the order in which a difference is blamed
+COMPARED = ("lights", "cars", "percepts", "beliefs", "situation", "goals", "advice", "acts", "busy", "ignored", "justified", "plans", "finished")
+
+
+def replay_trace(trace: Mapping[str, Any]) -> dict[str, Any] | None:
+    """The first step and value where Jason parts from the trace.  A lasso is driven around once more."""
+    steps = [s for s in trace["steps"] if "acts" in s]
+    if not steps:
+        raise Rejected([problem("TR103", Origin("trace"), "the trace has no step with an act", "record it with `rotra run --trace` or `rotra verify -o`")])
+    loop = trace.get("loop")
+    path = steps + (steps[loop:] if loop is not None else [])
+    (driver,) = load_drivers([trace["agent"]])
+    law = load_law(trace.get("rules") or "uk")
+    world = instance(resolve_scenario(trace["scenario"]), trace.get("instance") or "all")
+    check_driver(driver, world)
+    job: dict[str, Any] = {"start": None, "seed": None, "choices": [s.get("hesitates", []) for s in path], "percepts": None, "until": None}
+    if world.is_open:
+        job["percepts"] = [s["percepts"] for s in path]
+    else:
+        job["start"] = _start(path[0], world)
+    answer = run_in_jason(driver, law, world, len(path), job)
+    for number, (expected, seen) in enumerate(zip(path, answer["steps"], strict=False), start=1):
+        for what in COMPARED:
+            if what in expected and what in seen and _comparable(what, expected[what]) != _comparable(what, seen[what]):
+                return {"step": number, "what": what, "trace": expected[what], "jason": seen[what]}
+    if len([s for s in answer["steps"] if "acts" in s]) < len(path):
+        fault = answer.get("fault") or {}
+        return {"step": len(answer["steps"]), "what": "the run", "trace": "goes on", "jason": fault.get("message") or "ends"}
+    return None
+
+
+def _comparable(what: str, value: Any) -> Any:
+    """Values as they are compared: of a scripted car not its last speed; of plans not where the file lies on this machine."""
+    if what == "cars":
+        return {name: {k: v for k, v in car.items() if k != "speed" or name == "driver"} for name, car in value.items()}
+    if what == "plans":
+        return [(p["label"], str(p["file"]).rsplit("/", 1)[-1], p["line"]) for p in value]
+    return value
+
+
+def _start(first: Mapping[str, Any], world: Any) -> dict[str, Any]:
+    """The start that shows in the first state: places, phases and speeds, as the Java world reads them."""
+    raw = first.get("start")
+    if raw is None:
+        raise Rejected([problem("TR103", Origin("trace"), "the trace does not say how it starts", "record it again with this version")])
+    return dict(raw)
