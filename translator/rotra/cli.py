@@ -84,17 +84,18 @@ def main() -> None:
 @answered
 def doctor(as_json: bool) -> int:
     """Say what is installed, and what is missing with the command that installs it."""
-    from rotra.pipeline.doctor import examine
+    from rotra.pipeline.doctor import examine, healthy
 
     findings = examine()
     if as_json:
-        say_json({"findings": [{"name": f.name, "found": f.found, "install": f.install} for f in findings]})
+        say_json({"findings": [f.as_json() for f in findings]})
     else:
         table = Table("part", "found", "to install it")
         for f in findings:
-            table.add_row(f.name, f.found or "[red]missing[/]", "" if f.found else f.install)
+            missing = "[red]missing[/]" if f.needed else "missing (needed only to build)"
+            table.add_row(f.name, f"{f.found or missing} {f.remark}".strip(), "" if f.ok else f.install)
         screen.print(table)
-    return 0 if all(f.found for f in findings) else FAILED
+    return 0 if healthy(findings) else FAILED
 
 
 @main.command("list")
