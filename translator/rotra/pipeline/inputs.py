@@ -6,6 +6,7 @@ In: names or paths.  Out: loaded, checked inputs.  Errors: `Rejected` with a cod
 from __future__ import annotations
 
 import difflib
+import re
 from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
@@ -42,9 +43,10 @@ class Law:
 
 
 def shipped_agents() -> tuple[str, ...]:
-    """The drivers that ship: the agents that start a goal of their own (the other files are to be included)."""
-    folder = places.PROJECT / "agents"
-    return tuple(sorted(p.stem for p in folder.glob("*.asl") if any(line.startswith("!") for line in p.read_text(encoding="utf-8").splitlines())))
+    """The drivers that ship: the agent files that no other one includes."""
+    files = {p.name: p.read_text(encoding="utf-8") for p in (places.PROJECT / "agents").glob("*.asl")}
+    included = {name for text in files.values() for name in re.findall(r'include\(\s*"([^"]+)"', text)}
+    return tuple(sorted(Path(name).stem for name in files if name not in included))
 
 
 def shipped_scenarios() -> tuple[str, ...]:
