@@ -13,6 +13,9 @@ TOOLCHAIN := translator/rotra/toolchain
 export PYTHON
 export PIP_DISABLE_PIP_VERSION_CHECK := 1
 
+# A stamp whose thing is gone (.venv removed, `mvn clean`, an emptied Maven repository) is no stamp.
+$(shell $(TOOLCHAIN)/stale.sh)
+
 .PHONY: help setup verify test check bench clean distclean packages jvm nusmv python
 
 help: ## say what there is
@@ -53,17 +56,20 @@ distclean: clean ## remove all of it; the next `make` starts from nothing but th
 packages:
 	@$(TOOLCHAIN)/packages.sh
 
-# --- Python: the environment is made anew where its lock, or the folder it lies in, has changed ------------------------
+# --- Python: the environment is made anew where the folder it lies in has changed, as its programs name their place ----
 python: packages .build/python.stamp
 
 .build/where.files: FORCE
 	@mkdir -p .build
 	@pwd | cmp -s - $@ || pwd > $@
 
-.build/python.stamp: requirements.txt pyproject.toml .build/where.files
-	@echo "==> Python environment"
+.build/venv.stamp: .build/where.files
 	@$(PYTHON) -c 'import sys; sys.exit(sys.version_info < (3, 11) and "Python 3.11 or later is needed, this is " + sys.version)'
 	@$(PYTHON) -m venv --clear .venv
+	@touch $@
+
+.build/python.stamp: requirements.txt pyproject.toml .build/venv.stamp
+	@echo "==> Python environment"
 	@$(VENV)/python -m pip install --quiet -r requirements.txt
 	@$(VENV)/python -m pip install --quiet --no-deps --editable .
 	@touch $@

@@ -11,13 +11,13 @@ trap 'rm -f "$log"' EXIT
 
 if [ -e "$stamp" ] && [ -z "$(find $poms -newer "$stamp")" ]; then
     # The pipe would hide the exit status: keep it in a file.
-    { status=0; mvn -B -ntp -o "$@" 2>&1 || status=$?; echo "$status" >"$log.status"; } | tee "$log"
+    { status=0; mvn -B -ntp -Dstyle.color=never -o "$@" 2>&1 || status=$?; echo "$status" >"$log.status"; } | tee "$log"
     status=$(cat "$log.status")
     rm -f "$log.status"
     [ "$status" = 0 ] && exit 0
     grep -q 'in offline mode' "$log" || exit "$status"
     echo "==> something is missing offline; once more with the network"
 fi
-mvn -B -ntp "$@"
+mvn -B -ntp -Dstyle.color=never "$@"
 mkdir -p "$(dirname "$stamp")"
 touch "$stamp"
