@@ -61,7 +61,7 @@ def possible_percepts(scenario: Scenario) -> tuple[str, ...]:
         found |= {f"limit({scenario.limit})", f"drives({scenario.drives})", f"task({scenario.driver.task})"}
         found |= {f"heading({h})" for h in HEADINGS}
         for r, a in _window(scenario):
-            if scenario.traffic and (r % scenario.width or a % scenario.height or True):
+            if scenario.traffic:
                 found.add(f"car({r},{a})")
             for light in scenario.lights:
                 found |= {f"light({r},{a},{colour})" for colour, _ in light.cycle}
@@ -178,10 +178,10 @@ class _World:
         found = []
         for h in self.headings:
             dx, dy = _offset(self.scenario, (0, 0), h, r, a)
-            same_x = eq(var(f"car_{car.name}_x"), self.shifted(var("x"), dx, self.scenario.width))
-            same_y = eq(var(f"car_{car.name}_y"), self.shifted(var("y"), dy, self.scenario.height))
-            if (dx, dy) != (0, 0) or True:
-                found.append(conj(self.facing(h), same_x, same_y))
+            x, y = self.place(car)
+            same_x = eq(self.shifted(var("x"), dx, self.scenario.width), x)
+            same_y = eq(self.shifted(var("y"), dy, self.scenario.height), y)
+            found.append(conj(self.facing(h), same_x, same_y))
         return disj(*found)
 
     # ---- moves ----------------------------------------------------------------------------------------------------
@@ -208,7 +208,7 @@ class _World:
         """All moves of a step as a chain of sub-steps, then the next values of every variable."""
         s = self.scenario
         n = 1 + len(s.traffic)
-        where: list[tuple[Expr, Expr]] = [(var("x"), var("y"))] + [(var(f"car_{c.name}_x"), var(f"car_{c.name}_y")) for c in s.traffic]
+        where: list[tuple[Expr, Expr]] = [(var("x"), var("y")), *(self.place(c) for c in s.traffic)]
         crashed: list[Expr] = [var("crashed")] + [var(f"car_{c.name}_crashed") for c in s.traffic]
         names = ["driver", *(c.name for c in s.traffic)]
         longest = max((a.args[-1] for a in self.acts if a.args), default=0)
@@ -232,8 +232,9 @@ class _World:
                 pairs = (conj(moves[i], moves[j], self.same(target[i], where[j]), self.same(target[j], where[i])) for j in range(n) if j != i and self.may_swap(i, j))
                 swapped.append(disj(*pairs))
                 goes = conj(moves[i], negate(swapped[i]))
-                nx = self.define(f"sub{k}:{names[i]}:x", choose((goes, target[i][0]), (TRUE, where[i][0])))
-                ny = self.define(f"sub{k}:{names[i]}:y", choose((goes, target[i][1]), (TRUE, where[i][1])))
+                nx, ny = (choose((goes, target[i][a]), (TRUE, where[i][a])) for a in (0, 1))
+                nx = nx if nx is where[i][0] else self.define(f"sub{k}:{names[i]}:x", nx)
+                ny = ny if ny is where[i][1] else self.define(f"sub{k}:{names[i]}:y", ny)
                 after.append((nx, ny))
                 if i == 0:
                     covered.append(goes)
@@ -243,6 +244,14 @@ class _World:
             ]
             where = after
         self.finish(where, crashed, covered)
+
+    def place(self, car: ScriptedCar) -> tuple[Expr, Expr]:
+        """Where a scripted car is; the coordinate across its way is a constant where all its starts agree."""
+        columns, rows = ({c[axis] for c in car.at.all} for axis in (0, 1))
+        along_x = STEP[car.heading][0] != 0
+        x = var(f"car_{car.name}_x") if along_x or len(columns) > 1 else const(next(iter(columns)))
+        y = var(f"car_{car.name}_y") if not along_x or len(rows) > 1 else const(next(iter(rows)))
+        return x, y
 
     def same(self, a: tuple[Expr, Expr], b: tuple[Expr, Expr]) -> Expr:
         return conj(eq(a[0], b[0]), eq(a[1], b[1]))
@@ -283,8 +292,12 @@ class _World:
         add("speed", range(s.top_speed + 1), (0,), choose((var("crashed"), const(0)), (TRUE, count)), origin)
         add("crashed", (False, True), (False,), crashed[0], origin)
         for i, car in enumerate(s.traffic, start=1):
-            add(f"car_{car.name}_x", whole[0], (c[0] for c in car.at.all), where[i][0], car.origin)
-            add(f"car_{car.name}_y", whole[1], (c[1] for c in car.at.all), where[i][1], car.origin)
+            for axis, name in enumerate((f"car_{car.name}_x", f"car_{car.name}_y")):
+                place = self.place(car)[axis]
+                if place.op == "const":
+                    self.define(name, place, car.origin)
+                else:
+                    add(name, whole[axis], (c[axis] for c in car.at.all), where[i][axis], car.origin)
             add(f"car_{car.name}_crashed", (False, True), (False,), crashed[i], car.origin)
             if len(car.speed.all) > 1:
                 self.variables.append(Variable(f"car_{car.name}_speed", tuple(car.speed.all), tuple(car.speed.all), None, car.origin, frozen=True))

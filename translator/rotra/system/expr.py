@@ -237,10 +237,8 @@ def evaluate(e: Expr, state: Mapping[str, Value], definitions: Mapping[str, Expr
         match node.op:
             case "const":
                 result = node.args[0]
-            case "var":
-                result = state[node.args[0]]
-            case "ref":
-                result = value(definitions[node.args[0]])
+            case "var" | "ref":  # what is a variable in one world may be a constant definition in another
+                result = state[node.args[0]] if node.args[0] in state else value(definitions[node.args[0]])
             case "not":
                 result = not value(node.args[0])
             case "and":
