@@ -53,6 +53,9 @@ CODES: dict[str, str] = {
     "AG120": "a directive that no rule gives",
     "AG121": "two acts in one step",
     "PR110": "no such property",
+    "TR101": "a trace that is not JSON",
+    "TR102": "a trace with a key missing or of the wrong type",
+    "TR103": "a trace that cannot be replayed",
 }
 
 
