@@ -63,7 +63,19 @@ def _rule_bases() -> list[Path]:
 
 
 def _rule_base(folder: Path) -> str:
-    return _says(folder / "ontology.yaml")
+    """What the ontology says of itself; else how many rules there are in how many files."""
+    if says := _text(_root(folder / "ontology.yaml"), "says"):
+        return says
+    counts = [n for p in folder.glob("*.yaml") if (n := _count_rules(_root(p)))]
+    return f"{sum(counts)} rules in {len(counts)} files"
+
+
+def _count_rules(node: Node | None) -> int:
+    """Rules are the entries that have an id and directives; they stand in a list, or in one under a key."""
+    if node is None:
+        return 0
+    lists = [node, *(inner for _, inner in node.items())]
+    return sum(1 for entries in lists for entry in entries if entry.get("id") and entry.get("directives"))
 
 
 def _properties() -> dict[str, str]:

@@ -41,13 +41,27 @@ def make_project(folder: Path) -> tuple[Path, ...]:
         try:
             _fill(made)
             made.chmod(0o755)
-            made.replace(target)
-        except BaseException:
+            _move(made, target)
+        finally:
             shutil.rmtree(made, ignore_errors=True)
-            raise
     except OSError as error:
         raise Rejected([problem("IO104", Origin(str(folder)), f"cannot make the project: {error.strerror}", "choose a place that can be written")]) from error
     return tuple(sorted(p for p in folder.rglob("*") if p.is_file()))
+
+
+def _move(made: Path, target: Path) -> None:
+    """Into place; an empty folder that is there is kept, for it may be the one that the user stands in."""
+    if not target.is_dir():
+        made.replace(target)
+        return
+    moved: list[Path] = []
+    try:
+        for entry in sorted(made.iterdir()):
+            moved.append(entry.replace(target / entry.name))
+    except OSError:
+        for entry in moved:
+            shutil.rmtree(entry) if entry.is_dir() else entry.unlink(missing_ok=True)
+        raise
 
 
 def _fill(folder: Path) -> None:
