@@ -6,6 +6,7 @@ import sys
 from pathlib import Path
 
 import pytest
+
 from rotra.pipeline import doctor
 from rotra.pipeline.doctor import Finding, Program, examine, healthy
 

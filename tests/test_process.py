@@ -8,6 +8,7 @@ import time
 from pathlib import Path
 
 import pytest
+
 from rotra.engines.process import End, run
 
 PYTHON = sys.executable
@@ -84,9 +85,7 @@ def test_timeout_kills_the_whole_group_and_keeps_the_output() -> None:
 
 def test_a_child_left_behind_is_killed() -> None:
     outcome = python(
-        "import subprocess, sys\n"
-        "child = subprocess.Popen([sys.executable, '-c', 'import time; time.sleep(60)'])\n"
-        "print(child.pid, flush=True)",
+        "import subprocess, sys\nchild = subprocess.Popen([sys.executable, '-c', 'import time; time.sleep(60)'])\nprint(child.pid, flush=True)",
         timeout=1.0,
     )
     assert outcome.end is End.EXITED and outcome.seconds < 10
@@ -129,8 +128,7 @@ def test_an_interrupt_kills_the_program(monkeypatch: pytest.MonkeyPatch, tmp_pat
 
     monkeypatch.setattr(subprocess.Popen, "wait", interrupted)
     with pytest.raises(KeyboardInterrupt):
-        python("import os, time\nopen(os.environ['NOTE'], 'w').write(f'{os.getpid()}\\n')\ntime.sleep(60)",
-               environment={"NOTE": str(note)})
+        python("import os, time\nopen(os.environ['NOTE'], 'w').write(f'{os.getpid()}\\n')\ntime.sleep(60)", environment={"NOTE": str(note)})
     assert gone(int(note.read_text()))
 
 

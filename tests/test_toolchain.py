@@ -9,6 +9,7 @@ import sys
 from pathlib import Path
 
 import pytest
+
 from rotra.engines import places
 from rotra.engines.process import End, Outcome
 from rotra.toolchain import nusmv

@@ -174,7 +174,9 @@ def examine_java_side(classpath: Path, classes: Sequence[Path]) -> tuple[Finding
     else:
         found = jason[0].name.removeprefix("jason-interpreter-").removesuffix(".jar")
         gone = "" if jason[0].is_file() else "its jar is no longer where it was"
-        first = Finding("Jason", found, wanted, True, f"make clean && {_SETUP}" if gone else _SETUP, gone or ("" if found == wanted else "is another version"))
+        first = Finding(
+            "Jason", found, wanted, True, f"make clean && {_SETUP}" if gone else _SETUP, gone or ("" if found == wanted else "is another version")
+        )
     missing = [folder for folder in classes if not any(folder.rglob("*.class"))]
     second = Finding("Java side", None if missing or not jars else "built", "", True, _SETUP)
     return first, second

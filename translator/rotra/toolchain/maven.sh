@@ -6,18 +6,23 @@ set -eu
 stamp=$1
 shift
 poms="pom.xml model/java/pom.xml agents/java/pom.xml"
-log=$(mktemp)
-trap 'rm -f "$log"' EXIT
+record=$(mktemp -d)
+trap 'rm -rf "$record"' EXIT
+
+# Shows what Maven says (less the colour codes it prints even when told not to), keeps it, gives back its exit status.
+maven() {
+    { status=0; mvn -B -ntp -Dstyle.color=never "$@" 2>&1 || status=$?; echo "$status" >"$record/status"; } |
+        sed -u 's/\x1b\[[0-9;]*m//g; /^$/d' | tee "$record/log"
+    return "$(cat "$record/status")"
+}
 
 if [ -e "$stamp" ] && [ -z "$(find $poms -newer "$stamp")" ]; then
-    # The pipe would hide the exit status: keep it in a file.
-    { status=0; mvn -B -ntp -Dstyle.color=never -o "$@" 2>&1 || status=$?; echo "$status" >"$log.status"; } | tee "$log"
-    status=$(cat "$log.status")
-    rm -f "$log.status"
+    status=0
+    maven -o "$@" || status=$?
     [ "$status" = 0 ] && exit 0
-    grep -q 'in offline mode' "$log" || exit "$status"
+    grep -q 'in offline mode' "$record/log" || exit "$status"
     echo "==> something is missing offline; once more with the network"
 fi
-mvn -B -ntp -Dstyle.color=never "$@"
+maven "$@"
 mkdir -p "$(dirname "$stamp")"
 touch "$stamp"

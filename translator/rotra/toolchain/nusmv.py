@@ -157,9 +157,10 @@ def _build(workshop: Path, log: Path) -> Path:
     log.write_text("")
     jobs = f"-j{os.cpu_count() or 1}"
 
-    def step(words: str, command: Sequence[str | Path], cwd: Path, **options: str) -> None:
+    def step(words: str, command: Sequence[str | Path], cwd: Path) -> None:
         print(f"nusmv: {words} ...", flush=True)
-        outcome = run(command, cwd=cwd, timeout=STEP_SECONDS, **options)
+        # CUDD's makefiles do not stand the flags of the make that runs us (jobs, no built-in rules).
+        outcome = run(command, cwd=cwd, timeout=STEP_SECONDS, environment={"MAKEFLAGS": "", "MFLAGS": ""})
         with log.open("a") as record:
             record.write(f"== {words}: {' '.join(outcome.command)}\n{outcome.stdout}{outcome.stderr}")
         if not outcome.ok:
@@ -207,8 +208,14 @@ def _build(workshop: Path, log: Path) -> Path:
     built = workshop / "built"
     (built / "bin").mkdir(parents=True)
     shutil.copy2(nusmv / "NuSMV", built / "bin" / "NuSMV")
-    for licence in ("LGPL-2.1", "COPYING"):
-        shutil.copy2(nusmv / licence, built / licence)
+    for licence, name in (
+        (nusmv / "LGPL-2.1", "LGPL-2.1"),
+        (nusmv / "COPYING", "COPYING"),
+        (cudd / "LICENSE", "CUDD"),
+        (solver / "LICENSE", "MiniSat"),
+    ):
+        if licence.is_file():
+            shutil.copy2(licence, built / name)
     (built / "SOURCE").write_text(f"NuSMV {VERSION} with CUDD and MiniSat, from {SOURCE} sha256:{SOURCE_SHA256}\n")
     (built / "key").write_text(key())
     print("nusmv: trying it ...", flush=True)
