@@ -40,7 +40,7 @@ beside(A) :- nearside(Side) & lane(Side, R) & car(R, A).
 past :- not (beside(A) & A >= -1 & A <= 0).
 
 // back into the lane of those who do not overtake: nobody there, nobody about to be there
-back_in(Side) :- nearside(Side) & free_lane(Side, 1) & not beside(1).
+back_in(Side) :- nearside(Side) & free_lane(Side, 1).
 
 worth_overtaking :- task(overtake) & slow_car(_) & not light_ahead & offside(Side) & free_lane(Side, _).
 
@@ -130,7 +130,10 @@ due :- worth_overtaking.
 @level
 +!draw_level.
 
+// nor so fast that it is out of sight when it has fallen behind
 @get_past
++!get_past : beside(A) & A >= -1 & A <= 0 & pace(N) & N <= A + 3 <- forward(N); !get_past.
+@stuck_beside
 +!get_past : not past <- !ahead; !get_past.
 @got_past
 +!get_past.

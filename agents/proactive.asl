@@ -8,7 +8,10 @@ heeds(should).
 
 heeded(Action) :- heeds(Label) & advised_next(Label, Action).
 
-// the next situation, as far as it can be told: what is intended goes on, and what is seen stays as it is
+// the next situation, as far as it can be told: what is intended and seen now goes on, and at the limit the car gets as
+// far as the line or the junction that is near
 next_context(Context) :- context(Context).
-next_believes(Belief) :- believes(Belief).
 next_intends(Intention) :- intends(Intention).
+next_believes(Belief) :- believes(Belief).
+next_believes(at_traffic_light) :- next_line(A) & limit(L) & A <= L.
+next_believes(at_junction) :- junction(_, A) & limit(L) & A <= L.
