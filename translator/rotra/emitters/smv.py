@@ -142,6 +142,8 @@ def emit_smv(system: System, title: str, specifications: Iterable[Specification]
     lines = [f"-- {_comment(title)}", "-- Written by rotra translate; names map back through names.json.", "", "MODULE main", "VAR"]
     for part in parts:
         lines.append(f"  {part} : module_{part}({', '.join(parts)});")
+    if names.constants:
+        lines += ["CONSTANTS", f"  {', '.join(names.constants.values())};"]
     for spec in specifications:
         keyword = {"invariant": "INVARSPEC", "ltl": "LTLSPEC", "ctl": "CTLSPEC"}[spec.kind]
         lines.append(f"{keyword} NAME {spec.name} := {spec.text};")

@@ -366,7 +366,7 @@ class _Build:
             name = self.own(f"was:{show(percept)}")
             variables.append(Variable(name, (False, True), (False,), choose((alive, self.percept(percept)), (TRUE, var(name)))))
         self.define("busy", disj(*(g for g, leaf, _ in leaves if len(leaf.control.acts) > 1)))
-        self.define("restless", disj(eq(at, const(RESTLESS)), *(g for g, leaf, _ in leaves if leaf.restless)))
+        self.define("restless", disj(eq(at, const(RESTLESS)) if RESTLESS in self.minds.values() else FALSE, *(g for g, leaf, _ in leaves if leaf.restless)))
         minds = {name: rest for rest, name in self.minds.items()}
         rest = Mind(self.knowledge, now, lambda desired: self.goals_at_rest(minds, desired), lambda lit, e, o: self.name(lit, e, o, "rest"), Origin(self.agent.file, 1))
         goals = tuple(goal for goal, _ in self.agent.goals)

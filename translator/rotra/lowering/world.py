@@ -92,7 +92,7 @@ class _World:
         return ref(name)
 
     def heading(self) -> Expr:
-        return var("heading")
+        return var("heading") if self.turns else const(self.scenario.driver.heading)
 
     def facing(self, heading: str) -> Expr:
         return eq(self.heading(), const(heading))
