@@ -77,7 +77,8 @@ def test_names_what_came_and_went() -> None:
     assert "lights    tl red and amber" in told
     assert "believes  light_amber; no longer light_red" in told
     assert "intends   turn_right" in told
-    assert "released  no longer must stop_at_white_line" in told
+    assert "released  must stop_at_white_line: r175 no longer applies" in told
+    assert "blame: none; no directive in force was ignored; the last to fall silent: must stop_at_white_line in step 2: r175 no longer applies" in told
 
 
 def test_blames_plan_and_rule_and_says_what_was_right() -> None:

@@ -16,6 +16,7 @@ from typing import Any
 import jsonschema
 
 from rotra.diagnostics import Rejected, problem
+from rotra.frontends.rules import shown_path
 from rotra.frontends.terms import Struct, parse_ground
 from rotra.origins import Origin
 
@@ -145,7 +146,7 @@ def _end(steps: Sequence[Mapping[str, Any]], loop: int | None, story: _Story) ->
     if story.blame:
         yield from (f"blame: {line}" for line in story.blame)
     elif any(s.get("advice") for s in steps):
-        yield "blame: none; no directive in force was ignored"
+        yield "blame: none; no directive in force was ignored" + (f"; the last to fall silent: {story.silent}" if story.silent else "")
 
 
 class _Story:
@@ -155,6 +156,7 @@ class _Story:
         self.full, self.rules, self.better = full, rules, better
         self.quoted: set[str] = set()
         self.plan = ""
+        self.silent = ""
         self.blame: list[str] = []
 
     def step(self, step: Mapping[str, Any], before: Mapping[str, Any]) -> Iterator[str]:
@@ -210,6 +212,9 @@ class _Story:
                 yield _line(what, ", ".join(map(words, now)))
             return
         new, gone = [x for x in now if x not in before], [x for x in before if x not in now]
+        if what == "sees":  # a thing seen elsewhere now has moved; it is not gone
+            kinds = {x.split("(")[0] for x in new}
+            gone = [x for x in gone if x.split("(")[0] not in kinds]
         parts = [", ".join(map(words, new))] if new else []
         parts += ["no longer " + ", ".join(map(words, gone))] if gone else []
         if parts:
@@ -221,9 +226,12 @@ class _Story:
             if self.full or d not in previous:
                 yield _line(d["label"], f"{d['action']}{self._by(d)}")
         held = {(d["label"], d["action"]) for d in now}
-        gone = [f"{d['label']} {d['action']}" for d in previous if (d["label"], d["action"]) not in held]
-        if gone and not self.full and "advice" in step:
-            yield _line("released", "no longer " + ", ".join(gone))
+        for d in previous if "advice" in step else ():
+            if (d["label"], d["action"]) not in held:
+                rules = d.get("rules", [])
+                silent = f": {' and '.join(rules)} no longer appl{'ies' if len(rules) == 1 else 'y'}" if rules else ""
+                self.silent = f"{d['label']} {d['action']} in step {step['step']}{silent}"
+                yield _line("released", f"{d['label']} {d['action']}{silent}")
 
     def _by(self, directive: Mapping[str, Any], quote: bool = True) -> str:
         """`, by r175 (paragraph 175: what it says)`; a rule's sentence is quoted once in a trace."""
@@ -266,7 +274,7 @@ def _line(what: str, text: str) -> str:
 
 def _plan(plan: Mapping[str, Any]) -> str:
     label = f"@{plan['label']} " if plan["label"] else ""
-    return f"{label}({plan['file']}:{plan['line']})"
+    return f"{label}({shown_path(plan['file'])}:{plan['line']})"
 
 
 def _crash(crashed: Sequence[str], cars: Mapping[str, Any], before: Mapping[str, Any]) -> str:
