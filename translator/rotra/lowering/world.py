@@ -239,11 +239,32 @@ class _World:
                 if i == 0:
                     covered.append(goes)
             crashed = [
-                self.define(f"sub{k}:{names[i]}:crashed", disj(crashed[i], swapped[i], *(self.same(after[i], after[j]) for j in range(n) if j != i), conj(moves[i], negate(self.at(self.road, *after[i])))))
+                self.define(f"sub{k}:{names[i]}:crashed", disj(crashed[i], swapped[i], *(self.same(after[i], after[j]) for j in range(n) if j != i and not self.queues(i, j)), conj(moves[i], negate(self.on_road(i, after[i])))))
                 for i in range(n)
             ]
             where = after
         self.finish(where, crashed, covered)
+
+    def lane(self, i: int) -> tuple[str, Expr] | None:
+        """Heading and constant coordinate of a scripted car that can only drive along one lane."""
+        car = self.scenario.traffic[i - 1] if i else None
+        if car is None:
+            return None
+        across = self.place(car)[1 if STEP[car.heading][0] else 0]
+        return (car.heading, across) if across.op == "const" else None
+
+    def queues(self, i: int, j: int) -> bool:
+        """Two scripted cars of one lane never meet: the one behind waits for the one ahead."""
+        return i > 0 and j > 0 and self.lane(i) is not None and self.lane(i) == self.lane(j)
+
+    def on_road(self, i: int, place: tuple[Expr, Expr]) -> Expr:
+        lane = self.lane(i)
+        if lane is not None:
+            fixed = lane[1].args[0]
+            cells = {(x, fixed) for x in range(self.scenario.width)} if STEP[lane[0]][0] else {(fixed, y) for y in range(self.scenario.height)}
+            if cells <= self.road.keys():
+                return TRUE
+        return self.at(self.road, *place)
 
     def place(self, car: ScriptedCar) -> tuple[Expr, Expr]:
         """Where a scripted car is; the coordinate across its way is a constant where all its starts agree."""
