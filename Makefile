@@ -85,7 +85,7 @@ nusmv: packages python .build/nusmv.stamp
 # --- Java: built again when a source is newer, new or gone ------------------------------------------------------------
 jvm: packages .build/jvm.stamp
 
-JAVA_SOURCES := pom.xml $(shell find model/java agents/java -name target -prune -o -type f \( -name '*.java' -o -name pom.xml -o -path '*/src/main/resources/*' \) -print 2>/dev/null | LC_ALL=C sort)
+JAVA_SOURCES := pom.xml $(shell find model/java agents/java \( -name target -o -path '*/src/test' \) -prune -o -type f \( -name '*.java' -o -name pom.xml -o -path '*/src/main/resources/*' \) -print 2>/dev/null | LC_ALL=C sort)
 
 .build/java.files: FORCE
 	@mkdir -p .build
@@ -93,7 +93,7 @@ JAVA_SOURCES := pom.xml $(shell find model/java agents/java -name target -prune 
 
 .build/jvm.stamp: $(JAVA_SOURCES) .build/java.files .build/where.files
 	@echo "==> Java side"
-	@$(TOOLCHAIN)/maven.sh .build/maven-package.stamp -q package -DskipTests
+	@$(TOOLCHAIN)/maven.sh .build/maven-package.stamp -q package -Dmaven.test.skip=true
 	@test -s agents/java/target/classpath.txt
 	@touch $@
 
