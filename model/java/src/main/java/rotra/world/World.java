@@ -385,7 +385,11 @@ public final class World {
         }
     }
 
+    /** A driver that has crashed reaches nothing any more. */
     private void testGoal() {
+        if (crashed[DRIVER]) {
+            return;
+        }
         Cell at = new Cell(x[DRIVER], y[DRIVER]);
         boolean reached;
         if (goal instanceof Goal.InCells in) {

@@ -78,6 +78,19 @@ class GoalAndLightTest {
     }
 
     @Test
+    void whoCrashesAtTheGoalHasNotReachedItButWhoHasReachedItKeepsIt() {
+        World crash = world(driver(1, 7, "north") + traffic(car("a", 1, 6, "north", 0)) + ",'goal':{'in':[[1,6]]}", LANES);
+        step(crash, "forward(1)");
+        assertTrue(crash.crashed("driver"));
+        assertFalse(crash.finished());
+        World later = world(driver(1, 7, "north") + traffic(car("a", 1, 5, "north", 0)) + ",'goal':{'in':[[1,6]]}", LANES);
+        step(later, "forward(1)");
+        step(later, "forward(1)");
+        assertTrue(later.crashed("driver"));
+        assertTrue(later.finished());
+    }
+
+    @Test
     void whoJumpsOverTheGoalHasNotFinished() {
         World world = world(driver(1, 7, "north") + ",'goal':{'in':[[1,6]]}", LANES);
         step(world, "forward(2)");
