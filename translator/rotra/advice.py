@@ -12,25 +12,26 @@ from __future__ import annotations
 from collections import Counter
 from collections.abc import Iterable
 from dataclasses import dataclass
+from operator import itemgetter
+from typing import NamedTuple
 
 from rotra.frontends.rules import RuleBase
 
 
-@dataclass(frozen=True, slots=True)
-class Advised:
+class Advised(NamedTuple):
     label: str
     action: str
     rules: tuple[str, ...]
 
 
-@dataclass(frozen=True, slots=True)
-class Advice:
+class Advice(NamedTuple):
     directives: tuple[Advised, ...]
     unknown: tuple[str, ...]
 
 
-# (needed, forbidden, id, ranks of its directives)
-_Entry = tuple[int, int, str, tuple[int, ...]]
+# (needed, forbidden, place in the base, id, ranks of its directives)
+_Entry = tuple[int, int, int, str, tuple[int, ...]]
+_place = itemgetter(2)
 
 
 @dataclass(frozen=True, slots=True)
@@ -41,7 +42,6 @@ class Adviser:
     always: dict[str, tuple[_Entry, ...]]
     filed: dict[str, dict[int, tuple[_Entry, ...]]]
     directives: tuple[tuple[str, str], ...]
-    order: dict[str, int]
 
     def advise(self, context: str, beliefs: Iterable[str], intentions: Iterable[str] = ()) -> Advice:
         """The advice of one situation; a word may be a term or an alias."""
@@ -58,18 +58,18 @@ class Adviser:
                     held.append(bit)
         if context not in self.always:
             unknown.insert(0, context)
-        found: dict[int, list[str]] = {}
         filed = self.filed.get(context, {})
-        for entries in (self.always.get(context, ()), *(filed[b] for b in held if b in filed)):
-            for needed, forbidden, name, ranks in entries:
-                if needed & mask == needed and not forbidden & mask:
-                    for rank in ranks:
-                        found.setdefault(rank, []).append(name)
-        order = self.order
-        return Advice(
-            tuple(Advised(*self.directives[rank], tuple(sorted(found[rank], key=order.__getitem__))) for rank in sorted(found)),
-            tuple(unknown),
-        )
+        candidates = list(self.always.get(context, ()))
+        for bit in held:
+            candidates += filed.get(bit, ())
+        applicable = [e for e in candidates if e[0] & mask == e[0] and not e[1] & mask]
+        applicable.sort(key=_place)
+        found: dict[int, tuple[str, ...]] = {}
+        for _, _, _, name, ranks in applicable:
+            for rank in ranks:
+                found[rank] = (*found[rank], name) if rank in found else (name,)
+        directives = self.directives
+        return Advice(tuple([Advised(*directives[rank], found[rank]) for rank in sorted(found)]), tuple(unknown))
 
 
 def compile(base: RuleBase) -> Adviser:
@@ -90,10 +90,10 @@ def compile(base: RuleBase) -> Adviser:
     common = Counter(bit for needed in needs.values() for bit in needed)
     always: dict[str, list[_Entry]] = {context: [] for context in base.ontology.contexts}
     filed: dict[str, dict[int, list[_Entry]]] = {context: {} for context in base.ontology.contexts}
-    for rule in base.rules:
+    for number, rule in enumerate(base.rules):
         needed = needs[rule.id]
         forbidden = sum({bits["belief"][b] for b in rule.unless_beliefs} | {bits["intention"][i] for i in rule.unless_intentions})
-        entry = (sum(set(needed)), forbidden, rule.id, tuple(place[d.label, d.action] for d in rule.directives))
+        entry = (sum(set(needed)), forbidden, number, rule.id, tuple(place[d.label, d.action] for d in rule.directives))
         if needed:
             filed[rule.context].setdefault(min(needed, key=lambda bit: (common[bit], bit)), []).append(entry)
         else:
@@ -103,5 +103,4 @@ def compile(base: RuleBase) -> Adviser:
         {c: tuple(entries) for c, entries in always.items()},
         {c: {bit: tuple(entries) for bit, entries in table.items()} for c, table in filed.items()},
         tuple(directives),
-        {rule.id: n for n, rule in enumerate(base.rules)},
     )
