@@ -14,8 +14,6 @@ heeded(Action) :- heeds(Label) & advised(Label, Action).
 cells(3). cells(2). cells(1).          // fastest first
 lane(right, 1). lane(left, -1).
 
-light_ahead :- stop_line(0, A) & A > 0.
-
 // the line that must not be crossed now, A cells ahead
 held(A) :- stop_line(0, A) & A >= 0 & heeded(stop_at_white_line).
 held(A) :- stop_line(0, A) & A >= 0 & heeded(wait_at_white_line).
@@ -42,7 +40,7 @@ past :- not (beside(A) & A >= -1 & A <= 0).
 // back into the lane of those who do not overtake: nobody there, nobody about to be there
 back_in(Side) :- nearside(Side) & free_lane(Side, 1).
 
-worth_overtaking :- task(overtake) & slow_car(_) & not light_ahead & offside(Side) & free_lane(Side, _).
+worth_overtaking :- task(overtake) & slow_car(_) & not next_line(_) & offside(Side) & free_lane(Side, _).
 
 // ---- turning --------------------------------------------------------------------------------------------------------
 
@@ -81,10 +79,8 @@ due :- worth_overtaking.
 +!travel : turn_due(left) <- !turn_left.
 @overtake
 +!travel : worth_overtaking <- !overtake.
-@keep_in
-+!travel : heeded(move_left) & back_in(Side) <- change_lane(Side, 1).
 @approach
-+!travel : light_ahead <- !approaching_traffic_light.
++!travel : believes(traffic_light_ahead) <- !approaching_traffic_light.
 @cruise
 +!travel <- !proceed.
 // an act that could not be done: stand for a step, then pursue whatever is due
@@ -93,6 +89,8 @@ due :- worth_overtaking.
 
 // ---- moving on ------------------------------------------------------------------------------------------------------
 
+@keep_in
++!proceed : heeded(move_left) & back_in(Side) <- change_lane(Side, 1).
 @proceed
 +!proceed : pace(N) <- forward(N).
 @hold
@@ -100,15 +98,15 @@ due :- worth_overtaking.
 
 // one step ahead inside a manoeuvre: a light ahead counts there too
 @ahead_to_light
-+!ahead : light_ahead <- !approaching_traffic_light.
++!ahead : believes(traffic_light_ahead) <- !approaching_traffic_light.
 @ahead
 +!ahead <- !proceed.
 
 // lasts while the line is ahead; chosen in a subgoal, so that the advice is for a car that approaches
 @near_light
-+!approaching_traffic_light : light_ahead & manoeuvring <- !proceed.
++!approaching_traffic_light : believes(traffic_light_ahead) & manoeuvring <- !proceed.
 @approaching
-+!approaching_traffic_light : light_ahead & not due <- !proceed; !approaching_traffic_light.
++!approaching_traffic_light : believes(traffic_light_ahead) & not due <- !proceed; !approaching_traffic_light.
 @approached
 +!approaching_traffic_light.
 
@@ -120,19 +118,19 @@ due :- worth_overtaking.
 -!overtake <- !ahead.
 
 @call_off
-+!pull_out : heeded(cancel_overtaking) <- .fail.
++!pull_out : heeded(cancel_overtaking) | heeded(avoid_overtaking) | heeded(move_left) <- .fail.
 @pull_out
 +!pull_out : offside(Side) & free_lane(Side, N) <- change_lane(Side, N).
 
 // not faster past it than needed to see it fall behind
 @draw_level
-+!draw_level : beside(A) & A > 0 & pace(N) & N <= A + 1 <- forward(N); !draw_level.
++!draw_level : not believes(traffic_light_ahead) & beside(A) & A > 0 & pace(N) & N <= A + 1 <- forward(N); !draw_level.
 @level
 +!draw_level.
 
 // nor so fast that it is out of sight when it has fallen behind
 @get_past
-+!get_past : beside(A) & A >= -1 & A <= 0 & pace(N) & N <= A + 3 <- forward(N); !get_past.
++!get_past : not believes(traffic_light_ahead) & beside(A) & A >= -1 & A <= 0 & pace(N) & N <= A + 3 <- forward(N); !get_past.
 @stuck_beside
 +!get_past : not past <- !ahead; !get_past.
 @got_past
@@ -150,6 +148,8 @@ due :- worth_overtaking.
 @to_the_left
 +!turn_left <- !turn_off(left).
 
+@keep_in_first
++!turn_off(Side) : heeded(move_left) & back_in(In) <- change_lane(In, 1); !turn_off(Side).
 @turn
 +!turn_off(Side) : junction(Side, 0) & not held(0) & gap(Side) & corner(Side, N) <- turn(Side, N); +turned(Side).
 @await_gap

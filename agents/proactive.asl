@@ -13,5 +13,5 @@ heeded(Action) :- heeds(Label) & advised_next(Label, Action).
 next_context(Context) :- context(Context).
 next_intends(Intention) :- intends(Intention).
 next_believes(Belief) :- believes(Belief).
-next_believes(at_traffic_light) :- next_line(A) & limit(L) & A <= L.
+next_believes(at_traffic_light) :- next_line(A) & limit(L) & A <= L & not believes(light_green).
 next_believes(at_junction) :- junction(_, A) & limit(L) & A <= L.
