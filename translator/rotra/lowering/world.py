@@ -239,7 +239,7 @@ class _World:
                 if i == 0:
                     covered.append(goes)
             crashed = [
-                self.define(f"sub{k}:{names[i]}:crashed", disj(crashed[i], swapped[i], *(self.same(after[i], after[j]) for j in range(n) if j != i and not self.queues(i, j)), conj(moves[i], negate(self.on_road(i, after[i])))))
+                self.define(f"sub{k}:{names[i]}:crashed", disj(crashed[i], swapped[i], *(conj(self.same(after[i], after[j]), disj(swapped[i], swapped[j]) if self.queues(i, j) else TRUE) for j in range(n) if j != i), conj(moves[i], negate(self.on_road(i, after[i])))))
                 for i in range(n)
             ]
             where = after
@@ -254,7 +254,7 @@ class _World:
         return (car.heading, across) if across.op == "const" else None
 
     def queues(self, i: int, j: int) -> bool:
-        """Two scripted cars of one lane never meet: the one behind waits for the one ahead."""
+        """Two scripted cars of one lane meet only where a swap puts one of them back: else the one behind waits for the one ahead."""
         return i > 0 and j > 0 and self.lane(i) is not None and self.lane(i) == self.lane(j)
 
     def on_road(self, i: int, place: tuple[Expr, Expr]) -> Expr:
@@ -304,8 +304,10 @@ class _World:
         add("y", whole[1], (c[1] for c in starts), where[0][1], origin)
         if self.turns:
             turning = {h: disj(*(conj(self.done(a), self.facing(old)) for a in self.acts if a.name == "turn" for old in HEADINGS if turned(old, a.args[0].name) == h)) for h in HEADINGS}  # type: ignore[union-attr]
-            add("heading", HEADINGS, (s.driver.heading,), choose((var("crashed"), var("heading")), *((turning[h], const(h)) for h in HEADINGS), (TRUE, var("heading"))), origin)
+            heading = choose((var("crashed"), var("heading")), *((turning[h], const(h)) for h in HEADINGS), (TRUE, var("heading")))
+            add("heading", HEADINGS, (s.driver.heading,), heading, origin)
         else:
+            heading = const(s.driver.heading)
             self.define("heading", const(s.driver.heading), origin)
         count: Expr = const(0)
         for k, goes in enumerate(covered, start=1):
@@ -323,10 +325,10 @@ class _World:
             if len(car.speed.all) > 1:
                 self.variables.append(Variable(f"car_{car.name}_speed", tuple(car.speed.all), tuple(car.speed.all), None, car.origin, frozen=True))
             if any(car.hesitates.all):
-                add(f"hesitates_{car.name}", (False, True), car.hesitates.all, None, car.origin)
-        self.reach_goal(where, crashed)
+                add(f"hesitates_{car.name}", (False, True), (False, True), None, car.origin)
+        self.reach_goal(where, crashed, heading)
 
-    def reach_goal(self, where: list[tuple[Expr, Expr]], crashed: list[Expr]) -> None:
+    def reach_goal(self, where: list[tuple[Expr, Expr]], crashed: list[Expr], heading: Expr) -> None:
         s = self.scenario
         reached: Expr
         match s.goal:
@@ -346,7 +348,7 @@ class _World:
                     dx, dy = _offset(s, (0, 0), car.heading, right, ahead)
                     return self.same(where[0], (self.shifted(where[i][0], dx, s.width), self.shifted(where[i][1], dy, s.height)))
 
-                beside = conj(relative(side, 0), negate(crashed[0]))
+                beside = conj(eq(heading, const(car.heading)), relative(side, 0), negate(crashed[0]))
                 self.variables.append(Variable("beside", (False, True), (False,), disj(var("beside"), beside), s.origin))
                 reached = conj(var("beside"), disj(*(relative(0, n) for n in range(1, within + 1))))
         self.variables.append(Variable("finished", (False, True), (False,), disj(var("finished"), conj(reached, negate(crashed[0]))), s.origin))
