@@ -197,7 +197,13 @@ def _shape(root: Node, schema: str, findings: list[Diagnostic]) -> bool:
                 break
             node = inside
         where = ".".join(path) or "the file"
-        findings.append(problem("IO103", node.origin(), f"{where}: {_said(fault)}", f"see rules/schema/{schema}.schema.json and rules/README.md"))
+        hint = f"see rules/schema/{schema}.schema.json and rules/README.md"
+        if fault.validator == "additionalProperties":
+            extra = [n for key, n in node.items() if key not in fault.schema.get("properties", {})]
+            if any(n.value is None for n in extra):
+                hint = "put quotes around a text that holds a comma, as in `when: \"stop_line(0, A)\"`"
+            node = extra[0]
+        findings.append(problem("IO103", node.origin(), f"{where}: {_said(fault)}", hint))
     return not faults
 
 
