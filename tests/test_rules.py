@@ -8,7 +8,7 @@ from __future__ import annotations
 import json
 import re
 import shutil
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from pathlib import Path
 
 import pytest
@@ -66,7 +66,9 @@ def test_text_is_exact(tiny: Path) -> None:
     text = emit_advice(load_rule_base(tiny)).replace(f"{tiny}/", "")
     assert "intends(overtake) :- .intend(overtake).  // overtake <- ontology.yaml:8" in text
     assert "advised(must,stop) :- context(standard) & believes(light_red) & not intends(overtake).  // t1 <- lights.yaml:3" in text
-    assert "advised_next(must,stop) :- next_context(standard) & next_believes(light_red) & not next_intends(overtake).  // t1 <- lights.yaml:3" in text
+    assert (
+        "advised_next(must,stop) :- next_context(standard) & next_believes(light_red) & not next_intends(overtake).  // t1 <- lights.yaml:3" in text
+    )
     assert 'rule_of("t1",must,stop) :- context(standard) & believes(light_red) & not intends(overtake).  // t1 <- lights.yaml:3' in text
     assert "contradicted(stop, forward(N)) :- stop_line(0, A) & N > A.  // stop <- directives.yaml:2" in text
 
@@ -74,17 +76,32 @@ def test_text_is_exact(tiny: Path) -> None:
 def test_imported_action_with_a_hyphen_is_quoted(tiny: Path) -> None:
     ontology = (tiny / "ontology.yaml").read_text() + "  road_surfaces-avoid_non: {means: Stay on the road.}\n"
     (tiny / "ontology.yaml").write_text(ontology)
-    (tiny / "lights.yaml").write_text("section: S\nrules:\n  - {id: 'r145#2', published_name: r145, paragraph: 145, says: x, directives: [should road_surfaces-avoid_non]}\n")
+    (tiny / "lights.yaml").write_text(
+        "section: S\nrules:\n  - {id: 'r145#2', published_name: r145, paragraph: 145, says: x, directives: [should road_surfaces-avoid_non]}\n"
+    )
     text = emit_advice(load_rule_base(tiny))
     assert 'rule_of("r145#2",should,"road_surfaces-avoid_non") :- context(standard).' in text
 
 
-@pytest.mark.parametrize("text", ["stop_line(0, A) & A >= 0", "not (car(1,0) | car(-1, 1))", "(A + 1) * 2 > N - 1", "limit(L) & not L == 2", "true", "heading(north)", "task(T) & T \\== overtake"])
+@pytest.mark.parametrize(
+    "text",
+    [
+        "stop_line(0, A) & A >= 0",
+        "not (car(1,0) | car(-1, 1))",
+        "(A + 1) * 2 > N - 1",
+        "limit(L) & not L == 2",
+        "true",
+        "heading(north)",
+        "task(T) & T \\== overtake",
+    ],
+)
 def test_conditions_that_are_read(text: str) -> None:
     assert formula_fault(text) == ""
 
 
-@pytest.mark.parametrize("text", ["", "car(1,0) &", ".print(x)", "car(1,0) // x", "car", "car(1,0) car(1,1)", "believes(x)", "A", '"x" == "y"', "car((1,0)"])
+@pytest.mark.parametrize(
+    "text", ["", "car(1,0) &", ".print(x)", "car(1,0) // x", "car", "car(1,0) car(1,1)", "believes(x)", "A", '"x" == "y"', "car((1,0)"]
+)
 def test_conditions_that_are_refused(text: str) -> None:
     assert formula_fault(text) != ""
 
@@ -97,7 +114,7 @@ def test_acts_that_are_read(text: str) -> None:
 # ---- the shipped base ------------------------------------------------------------------------------------------------
 
 
-def actions(beliefs: list[str], intentions: list[str] = []) -> set[str]:
+def actions(beliefs: list[str], intentions: Sequence[str] = ()) -> set[str]:
     return {f"{d['label']} {d['action']}" for d in advise_one("uk", "standard", beliefs, intentions, strict=True)["directives"]}
 
 
@@ -175,7 +192,14 @@ def test_published_entries_fall_silent_at_the_line(tmp_path: Path) -> None:
 
 def test_advise_lines(tmp_path: Path) -> None:
     source = tmp_path / "situations.jsonl"
-    lines = ['{"context": "standard", "beliefs": ["lightRed", "purple"], "intentions": ["approaching_traffic_light"]}', "", "{", "[]", '{"beliefs": "light_red"}', '{"context": "emergency"}']
+    lines = [
+        '{"context": "standard", "beliefs": ["lightRed", "purple"], "intentions": ["approaching_traffic_light"]}',
+        "",
+        "{",
+        "[]",
+        '{"beliefs": "light_red"}',
+        '{"context": "emergency"}',
+    ]
     source.write_text("\n".join(lines))
     first, *wrong, emergency = advise_lines("uk", source)
     assert first["unknown"] == ["purple"]

@@ -16,7 +16,7 @@ import json
 import re
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass
-from functools import lru_cache
+from functools import cache
 from pathlib import Path
 from typing import Any
 
@@ -147,7 +147,14 @@ def load_rule_base(given: str | Path) -> RuleBase:
         meanings = tuple(_load_meanings(folder / "directives.yaml", ontology[1], findings))
     rules = tuple(_load_rules(folder, ontology[1], findings))
     if not rules and not findings:
-        findings.append(problem("RB111", Origin(str(folder)), "the rule base has no rules", "write a file of rules beside ontology.yaml; `rotra init` makes a project to start from"))
+        findings.append(
+            problem(
+                "RB111",
+                Origin(str(folder)),
+                "the rule base has no rules",
+                "write a file of rules beside ontology.yaml; `rotra init` makes a project to start from",
+            )
+        )
     if findings:
         raise Rejected(findings)
     return RuleBase(ontology[0], shown_path(str(folder)), ontology[1], rules, meanings)
@@ -168,7 +175,16 @@ def _folder(given: str | Path) -> Path:
     if (path / "ontology.yaml").is_file():
         return path
     if path.is_dir():
-        raise Rejected([problem("RB100", Origin(str(path)), "the folder holds no ontology.yaml", "a rule base is a folder with ontology.yaml, directives.yaml and files of rules")])
+        raise Rejected(
+            [
+                problem(
+                    "RB100",
+                    Origin(str(path)),
+                    "the folder holds no ontology.yaml",
+                    "a rule base is a folder with ontology.yaml, directives.yaml and files of rules",
+                )
+            ]
+        )
     near = difflib.get_close_matches(str(given), shipped_rule_bases(), 1)
     hint = f"did you mean {near[0]}?" if near else f"shipped are {', '.join(shipped_rule_bases())}; or give the path of a folder"
     raise Rejected([problem("RB100", Origin(str(given)), f"there is no rule base {str(given)!r}", hint)])
@@ -177,7 +193,7 @@ def _folder(given: str | Path) -> Path:
 # ---- shape: the JSON Schemas, their findings at the line -------------------------------------------------------------
 
 
-@lru_cache(maxsize=None)
+@cache
 def _validator(name: str) -> Any:
     import jsonschema
 
@@ -201,7 +217,7 @@ def _shape(root: Node, schema: str, findings: list[Diagnostic]) -> bool:
         if fault.validator == "additionalProperties":
             extra = [n for key, n in node.items() if key not in fault.schema.get("properties", {})]
             if any(n.value is None for n in extra):
-                hint = "put quotes around a text that holds a comma, as in `when: \"stop_line(0, A)\"`"
+                hint = 'put quotes around a text that holds a comma, as in `when: "stop_line(0, A)"`'
             node = extra[0]
         findings.append(problem("IO103", node.origin(), f"{where}: {_said(fault)}", hint))
     return not faults
@@ -241,7 +257,14 @@ def _load_ontology(file: Path, findings: list[Diagnostic]) -> tuple[str, Ontolog
         for name, term in tables[kind].items():
             for alias in term.aliases:
                 if names.setdefault((kind, alias), name) != name:
-                    findings.append(problem("RB107", term.origin, f"the alias {alias} of {name} already stands for {names[kind, alias]}", "one word, one term: drop it in one place"))
+                    findings.append(
+                        problem(
+                            "RB107",
+                            term.origin,
+                            f"the alias {alias} of {name} already stands for {names[kind, alias]}",
+                            "one word, one term: drop it in one place",
+                        )
+                    )
     ontology = Ontology(
         _words(root, "contexts", findings),
         _words(root, "labels", findings),
@@ -285,7 +308,14 @@ def _safe(name: str, node: Node, findings: list[Diagnostic], hyphens: bool = Fal
     """A name goes into AgentSpeak and SMV text as it stands, so it has to be an atom there (an imported action may hold hyphens)."""
     if re.fullmatch(r"[a-z][A-Za-z0-9_]*" if not hyphens else r"[a-z][A-Za-z0-9_-]*", name) and name not in _RESERVED:
         return
-    findings.append(problem("RB106", node.origin(), f"{name!r} cannot be a name", "begin with a small letter and go on with letters, digits and _; not, true, false and the like are words of AgentSpeak"))
+    findings.append(
+        problem(
+            "RB106",
+            node.origin(),
+            f"{name!r} cannot be a name",
+            "begin with a small letter and go on with letters, digits and _; not, true, false and the like are words of AgentSpeak",
+        )
+    )
 
 
 def _resolve(ontology: Ontology, kind: str, node: Node, findings: list[Diagnostic]) -> str:
@@ -296,9 +326,13 @@ def _resolve(ontology: Ontology, kind: str, node: Node, findings: list[Diagnosti
         return name
     other = next((k for k in KINDS if ontology.canonical(k, word) is not None), None)
     if other is not None:
-        findings.append(problem("RB103", node.origin(), f"{word} is {_a(other)}, but {_a(kind)} is asked for here", f"move it to `{other}s`, or use another word"))
+        findings.append(
+            problem("RB103", node.origin(), f"{word} is {_a(other)}, but {_a(kind)} is asked for here", f"move it to `{other}s`, or use another word")
+        )
     else:
-        findings.append(problem("RB101", node.origin(), f"{word!r} is not {_a(kind)} of the ontology", _near(word, [n for k, n in ontology.names if k == kind])))
+        findings.append(
+            problem("RB101", node.origin(), f"{word!r} is not {_a(kind)} of the ontology", _near(word, [n for k, n in ontology.names if k == kind]))
+        )
     return word
 
 
@@ -329,7 +363,14 @@ def _load_rules(folder: Path, ontology: Ontology, findings: list[Diagnostic]) ->
         for node in root.at("rules"):
             rule = _rule(node, str(root.at("section").value), ontology, findings)
             if rule.id in first:
-                findings.append(problem("RB102", node.at("id").origin(), f"the rule {rule.id} stands twice; the other is at {first[rule.id].origin.file}:{first[rule.id].origin.line}", "give each rule an id of its own"))
+                findings.append(
+                    problem(
+                        "RB102",
+                        node.at("id").origin(),
+                        f"the rule {rule.id} stands twice; the other is at {first[rule.id].origin.file}:{first[rule.id].origin.line}",
+                        "give each rule an id of its own",
+                    )
+                )
                 continue
             first[rule.id] = rule
             yield rule
@@ -350,7 +391,14 @@ def _rule(node: Node, section: str, ontology: Ontology, findings: list[Diagnosti
     unless = [_exception(n, ontology, findings) for n in node.get("unless") or ()]
     legal = tuple(str(n.value) for n in node.get("legal") or ())
     if any(d.label == "must" for d in directives) and not legal:
-        findings.append(problem("RB109", node.at("id").origin(), f"{text('id')} says must but names no law", "add `legal: [...]`, or say should: must is for what the law demands"))
+        findings.append(
+            problem(
+                "RB109",
+                node.at("id").origin(),
+                f"{text('id')} says must but names no law",
+                "add `legal: [...]`, or say should: must is for what the law demands",
+            )
+        )
     return Rule(
         id=text("id"),
         paragraph=text("paragraph"),
@@ -379,7 +427,14 @@ def _exception(node: Node, ontology: Ontology, findings: list[Diagnostic]) -> tu
 def _directive(node: Node, ontology: Ontology, findings: list[Diagnostic]) -> Directive:
     label, _, action = str(node.value).partition(" ")
     if label not in ontology.labels:
-        findings.append(problem("RB104", node.origin(), f"{label!r} is not a label", f"labels are {', '.join(ontology.labels)}: write `{next(iter(ontology.labels))} {action}`"))
+        findings.append(
+            problem(
+                "RB104",
+                node.origin(),
+                f"{label!r} is not a label",
+                f"labels are {', '.join(ontology.labels)}: write `{next(iter(ontology.labels))} {action}`",
+            )
+        )
     return Directive(label, _resolve(ontology, "action", Node(action.strip(), node.file, node.line), findings))
 
 
@@ -406,12 +461,21 @@ def _contradiction(node: Node, findings: list[Diagnostic]) -> Contradiction:
     fault = pattern_fault(act)
     if fault:
         near = difflib.get_close_matches(act.split("(")[0], ACTS, 1)
-        findings.append(problem("RB105", node.at("act").origin(), fault, f"did you mean {near[0]}?" if near and near[0] != act.split("(")[0] else "acts are wait, forward(N), change_lane(S, N), turn(S, N)"))
+        findings.append(
+            problem(
+                "RB105",
+                node.at("act").origin(),
+                fault,
+                f"did you mean {near[0]}?" if near and near[0] != act.split("(")[0] else "acts are wait, forward(N), change_lane(S, N), turn(S, N)",
+            )
+        )
     parts = {}
     for key in ("when", "where"):
         part = node.get(key)
         parts[key] = "" if part is None else str(part.value)
         fault = formula_fault(parts[key]) if part is not None else ""
         if part is not None and fault:
-            findings.append(problem("RB108", part.origin(), f"`{parts[key]}`: {fault}", "write a condition over percepts, as in `stop_line(0, A) & A >= 0`"))
+            findings.append(
+                problem("RB108", part.origin(), f"`{parts[key]}`: {fault}", "write a condition over percepts, as in `stop_line(0, A) & A >= 0`")
+            )
     return Contradiction(act, parts["when"], parts["where"], Origin(shown_path(node.file), node.line, act))

@@ -22,7 +22,9 @@ def advise_one(rules: str, context: str, beliefs: Iterable[str], intentions: Ite
     base = load_rule_base(rules)
     advice = compile(base).advise(context, beliefs, intentions)
     if strict and advice.unknown:
-        raise Rejected([problem("RB112", Origin("situation"), f"{word!r} is not a word of this rule base", _near(base, word)) for word in advice.unknown])
+        raise Rejected(
+            [problem("RB112", Origin("situation"), f"{word!r} is not a word of this rule base", _near(base, word)) for word in advice.unknown]
+        )
     return answer(advice)
 
 
@@ -68,4 +70,4 @@ def _line(adviser: Adviser, line: str, place: str, strict: bool) -> dict[str, An
 
 def _near(base: RuleBase, word: str) -> str:
     near = difflib.get_close_matches(word, [*base.ontology.contexts, *(n for kind, n in base.ontology.names if kind != "action")], 1)
-    return f"did you mean {near[0]}?" if near else "rules/uk/ontology.yaml lists the words; without --strict it is left out"
+    return f"did you mean {near[0]}?" if near else "the ontology of the rule base lists the words; without --strict it is left out"

@@ -15,7 +15,9 @@ from rotra.origins import Origin
 
 def list_rules(rules: str) -> list[dict[str, Any]]:
     base = load_rule_base(rules)
-    return [{"id": r.id, "paragraph": r.paragraph, "says": r.says, "section": r.section, "directives": [str(d) for d in r.directives]} for r in base.rules]
+    return [
+        {"id": r.id, "paragraph": r.paragraph, "says": r.says, "section": r.section, "directives": [str(d) for d in r.directives]} for r in base.rules
+    ]
 
 
 def show_rule(rules: str, identity: str) -> dict[str, Any]:
@@ -23,7 +25,16 @@ def show_rule(rules: str, identity: str) -> dict[str, Any]:
     rule = base.rule(identity)
     if rule is None:
         near = difflib.get_close_matches(identity, [r.id for r in base.rules], 1)
-        raise Rejected([problem("RB113", Origin(rules), f"there is no rule {identity!r}", f"did you mean {near[0]}?" if near else "rotra rules list shows what there is")])
+        raise Rejected(
+            [
+                problem(
+                    "RB113",
+                    Origin(rules),
+                    f"there is no rule {identity!r}",
+                    f"did you mean {near[0]}?" if near else "rotra rules list shows what there is",
+                )
+            ]
+        )
     return {
         "id": rule.id,
         "paragraph": rule.paragraph,
