@@ -30,6 +30,7 @@ CODES: dict[str, str] = {
     "SC108": "one name for two things",
     "SC109": "no such percept",
     "SC110": "a world text that cannot be read",
+    "SC111": "a line of a world text that is passed over",
     "RB100": "no such rule base",
     "RB101": "a word that the ontology does not know",
     "RB102": "two rules with one id",

@@ -20,6 +20,7 @@ import jsonschema
 from rotra.diagnostics import Diagnostic, Rejected, problem
 from rotra.engines.places import PROJECT
 from rotra.frontends.terms import Struct, parse_ground, show
+from rotra.frontends.textworld import with_text_world
 from rotra.frontends.yamlfile import Node, load_yaml
 from rotra.origins import Origin
 
@@ -111,6 +112,7 @@ class Scenario:
     percepts: tuple[str, ...]
     percept_exclusions: tuple[tuple[str, ...], ...]
     origin: Origin
+    warnings: tuple[Diagnostic, ...] = ()
 
     @property
     def is_open(self) -> bool:
@@ -167,13 +169,31 @@ def _schema() -> dict[str, Any]:
 
 def load_scenario(path: Path, source: str | None = None) -> Scenario:
     root = load_yaml(path)
-    shape = [
-        problem("IO103", _node_at(root, list(e.absolute_path)).origin(), f"{'/'.join(map(str, e.absolute_path)) or 'the file'}: {e.message}", "compare with the shipped scenarios; editors use model/schema/scenario.schema.json")
-        for e in sorted(jsonschema.Draft202012Validator(_schema()).iter_errors(root.plain()), key=lambda e: list(map(str, e.absolute_path)))
-    ]
+    _check_shape(root)
+    warnings: tuple[Diagnostic, ...] = ()
+    if root.get("text") is not None:
+        root, warnings = with_text_world(root)
+        _check_shape(root)
+    return replace(_Reader(root, source or str(path)).scenario(), warnings=warnings)
+
+
+def _check_shape(root: Node) -> None:
+    """Errors: IO103 for what the schema refuses."""
+    hint = "compare with the shipped scenarios; editors use model/schema/scenario.schema.json"
+    found = jsonschema.Draft202012Validator(_schema()).iter_errors(root.plain())
+    shape = []
+    for e in found:
+        path = list(e.absolute_path)
+        node, where = _node_at(root, path), "/".join(map(str, path)) or "the file"
+        surplus = [key for key, _ in node.items() if e.validator == "additionalProperties" and key not in e.schema.get("properties", {})]
+        if surplus and isinstance(e.schema.get("additionalProperties"), bool):
+            shape += [problem("IO103", node.at(key).origin(), f"{where}: there is no key {key!r} here", hint) for key in surplus]
+        elif e.validator == "oneOf" and not path:
+            shape.append(problem("IO103", node.origin(), "a scenario has either `grid` or `text`", 'draw the grid, name a world text, or write grid: "" for an open scenario'))
+        else:
+            shape.append(problem("IO103", node.origin(), f"{where}: {e.message}", hint))
     if shape:
         raise Rejected(shape)
-    return _Reader(root, source or str(path)).scenario()
 
 
 def _node_at(root: Node, path: list[Any]) -> Node:

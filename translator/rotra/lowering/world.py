@@ -12,7 +12,7 @@ from collections.abc import Iterable
 
 from rotra.frontends.scenario import Beyond, InCells, Overtaken, Scenario, ScriptedCar
 from rotra.frontends.terms import Struct, order, parse_ground, show
-from rotra.origins import Origin
+from rotra.origins import NOWHERE, Origin
 from rotra.system.expr import FALSE, TRUE, Expr, among, arithmetic, choose, conj, const, disj, eq, negate, ref, var
 from rotra.system.transition import Definition, Part, Variable
 
@@ -86,7 +86,7 @@ class _World:
         self.headings = HEADINGS if self.turns else (scenario.driver.heading,)
         self.file = scenario.origin
 
-    def define(self, name: str, expr: Expr, origin: Origin = Origin("")) -> Expr:
+    def define(self, name: str, expr: Expr, origin: Origin = NOWHERE) -> Expr:
         if name not in self.definitions:
             self.definitions[name] = Definition(name, expr, origin)
         return ref(name)
