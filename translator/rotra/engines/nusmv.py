@@ -70,8 +70,8 @@ def check_model(nusmv: Path, model: Path, checks: Sequence[Check], timeout: floa
     """One process for all checks.  `timeout` in seconds is for the whole; what was not answered in time is `Unknown`."""
     assert all(_NAME.match(c.name) for c in checks)
     result = run([nusmv, "-int", model], timeout=timeout, stdin=_script(checks))
-    output, log = result.stdout, result.stdout + result.stderr
-    blocks = dict(re.findall(r"^@@begin (\S+)\n(.*?)^@@end \1 *$", output, re.MULTILINE | re.DOTALL))
+    output, log = result.stdout.replace("NuSMV > ", ""), result.stdout + result.stderr
+    blocks = dict(re.findall(r"^@@begin (\S+) *\n(.*?)^@@end \1 *$", output, re.MULTILINE | re.DOTALL))
     answers: dict[str, Answer] = {}
     for check in checks:
         if check.name in blocks:
@@ -85,12 +85,12 @@ def check_model(nusmv: Path, model: Path, checks: Sequence[Check], timeout: floa
     states = re.search(r"reachable states: ([0-9.e+]+)", blocks.get("reachable", ""))
     initial = blocks.get("initial")
     none = "set of initial states is EMPTY" in log or "initial states set is empty" in log.lower()
-    seconds = {name: float(t) for name, t in re.findall(r"^@@time (\S+)\n(?:.*\n)?elapse: ([0-9.]+) seconds", output, re.MULTILINE)}
+    seconds = {name: float(took.group(1)) for name, block in blocks.items() if (took := re.search(r"^elapse: ([0-9.]+) seconds", block, re.MULTILINE))}
     return Answers(answers, None if initial is None else not none, total, int(float(states.group(1))) if states else None, seconds, log)
 
 
 def _script(checks: Sequence[Check]) -> str:
-    lines = ["unset show_defines_in_traces", "go"]
+    lines = ["unset traces_show_defines", "unset traces_show_defines_with_next", "go"]
 
     def block(name: str, *commands: str) -> None:
         lines.extend([f'echo "@@begin {name}"', *commands, f'echo "@@end {name}"'])
@@ -100,7 +100,7 @@ def _script(checks: Sequence[Check]) -> str:
     block("reachable", "compute_reachable", "print_reachable_states")
     for check in checks:
         lines.append(("set" if check.trace else "unset") + " counter_examples")
-        block(check.name, f"{_KIND[check.kind]} -P {check.name}")
+        block(check.name, f"{_KIND[check.kind]} -P {check.name}", "time")
     return "\n".join([*lines, "quit"]) + "\n"
 
 
@@ -111,7 +111,7 @@ def _complaint(log: str) -> str:
 
 
 def _answer(block: str, check: Check) -> Answer:
-    verdict = _VERDICT.search(block.replace("NuSMV > ", ""))
+    verdict = _VERDICT.search(block)
     if verdict is None:
         return EngineFailed(_complaint(block))
     if verdict.group(1) == "true":
@@ -126,7 +126,7 @@ def read_trace(text: str) -> tuple[tuple[dict[str, str], ...], int | None]:
     loop: int | None = None
     current: dict[str, str] = {}
     for line in text.splitlines():
-        line = line.replace("NuSMV > ", "").strip()
+        line = line.strip()
         if line.startswith("-- Loop starts here"):
             loop = len(states)
         elif line.startswith("-> State:"):

@@ -10,7 +10,7 @@ from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field
 
 from rotra.frontends.agent import Formula, Rule
-from rotra.frontends.terms import Struct, Term, Text, Var, is_ground, show, unify
+from rotra.frontends.terms import Struct, Term, Text, Var, is_ground, parse_ground, show, unify
 from rotra.lowering.mind import DriverModel, legal_acts
 from rotra.lowering.query import holds, solve
 from rotra.origins import Origin

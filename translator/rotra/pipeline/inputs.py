@@ -8,7 +8,7 @@ from __future__ import annotations
 import difflib
 import re
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 from rotra.diagnostics import Rejected, problem
@@ -80,7 +80,15 @@ def load_law(given: str) -> Law:
     if not file.is_file() or file.read_text(encoding="utf-8") != text:
         file.write_text(text, encoding="utf-8")
     (parsed,) = parse_agents([file])
-    return Law(base, text, parsed.knowledge, {rule.id: rule.origin for rule in base.rules})
+    lines = text.splitlines()
+    advice = tuple(replace(rule, origin=_written_in(lines, rule.origin)) for rule in parsed.knowledge)
+    return Law(base, text, advice, {rule.id: rule.origin for rule in base.rules})
+
+
+def _written_in(lines: list[str], origin: Origin) -> Origin:
+    """The place in the rule base that a line of the advice names in its comment."""
+    comment = re.search(r"// (?:(\S+) <- )?(\S+):(\d+)$", lines[origin.line - 1]) if 0 < origin.line <= len(lines) else None
+    return Origin(comment.group(2), int(comment.group(3)), comment.group(1) or "") if comment else origin
 
 
 def check_driver(driver: Driver, scenario: Scenario) -> None:

@@ -1,0 +1,254 @@
+"""Load the catalogue of properties, and parse their formulas.
+
+In: YAML files of properties.  Out: `Property`s with formulas as trees.  Left to others: what an atom means in a model
+(lowering/atoms.py).  Errors: PR1xx with the line, as `Rejected`.  The language: properties/README.md.
+"""
+
+from __future__ import annotations
+
+import difflib
+import json
+from collections.abc import Mapping
+from dataclasses import dataclass
+from functools import lru_cache
+from pathlib import Path
+from typing import Any
+
+import jsonschema
+from lark import Lark
+from lark.exceptions import UnexpectedInput
+
+from rotra.diagnostics import Diagnostic, Rejected, problem
+from rotra.engines.places import PROJECT
+from rotra.frontends.rules import RuleBase
+from rotra.frontends.terms import Struct, Sum, Term, Var
+from rotra.frontends.yamlfile import Node, load_yaml
+from rotra.origins import Origin
+
+# word -> how many arguments it may have
+WORDS: Mapping[str, tuple[int, ...]] = {
+    "believes": (1,), "intends": (1,), "belief": (1,), "goal": (1,), "does": (1,), "percept": (1,), "advised": (2,), "ignored": (1, 2), "crashed": (0,),
+    "finished": (0,), "hesitates": (1,), "heading": (1,), "light": (2,), "car": (3,), "busy": (0,), "restless": (0,), "main_goal": (0,),
+}
+SETS = ("beliefs", "intentions", "actions", "cars", "lights")
+VERDICTS = ("holds", "violated", "vacuous")
+
+
+@dataclass(frozen=True, slots=True)
+class Formula:
+    """op: always eventually next historically once previously until since not and or implies iff forall compare atom.
+
+    `args`: sub-formulas; for forall (variable, domain, formula), domain a set's name or a tuple of terms; for compare
+    (relation, term, term); for atom (word, terms...).
+    """
+
+    op: str
+    args: tuple[Any, ...]
+
+
+@dataclass(frozen=True, slots=True)
+class Property:
+    """`expect`: driver -> verdict, or scenario -> verdict with `_` for the others."""
+
+    id: str
+    says: str
+    formula: Formula
+    cites: tuple[str, ...]
+    scenarios: tuple[str, ...]
+    assuming: tuple[Formula, ...]
+    witness: Formula | None
+    requirement: bool
+    expect: Mapping[str, Any]
+    origin: Origin
+
+
+def expected(wanted: Property, agent: str | None, scenario: str) -> str | None:
+    """What should come out: for a shipped driver what the catalogue says; a user's own is held to the requirements."""
+    if agent is None:
+        return "holds" if wanted.requirement else None
+    stated = wanted.expect.get(agent)
+    if isinstance(stated, Mapping):
+        stated = stated.get(scenario, stated.get("_"))
+    return stated if isinstance(stated, str) else None
+
+
+@lru_cache(maxsize=1)
+def _parser() -> Lark:
+    return Lark((Path(__file__).parent / "properties_grammar.lark").read_text(encoding="utf-8"), parser="earley", maybe_placeholders=True)
+
+
+@lru_cache(maxsize=1)
+def _schema() -> dict[str, Any]:
+    loaded = json.loads((PROJECT / "properties" / "schema" / "properties.schema.json").read_text(encoding="utf-8"))
+    assert isinstance(loaded, dict)
+    return loaded
+
+
+def load_properties(given: str | Path | None, base: RuleBase) -> tuple[Property, ...]:
+    """The shipped catalogue (None), or the properties of one file."""
+    files = sorted((PROJECT / "properties").glob("*.yaml")) if given is None else [Path(given)]
+    found: list[Diagnostic] = []
+    loaded: list[Property] = []
+    for file in files:
+        root = load_yaml(file)
+        shape = [
+            problem("IO103", _at(root, list(e.absolute_path)).origin(), f"{'/'.join(map(str, e.absolute_path)) or 'the file'}: {e.message}", "compare with the shipped catalogue; editors use properties/schema/properties.schema.json")
+            for e in jsonschema.Draft202012Validator(_schema()).iter_errors(root.plain())
+        ]
+        if shape:
+            found += shape
+            continue
+        known = {r.id for r in base.rules}
+        # a catalogue written for another jurisdiction cites nothing of this one
+        ours = any(str(c.value) in known for node in root for c in node.get("cites") or ())
+        for node in root:
+            read = _property(node, base, known if ours else None, found)
+            if any(p.id == read.id for p in loaded):
+                found.append(problem("PR101", node.at("id").origin(), f"the property {read.id} is there twice", "give it another id"))
+            loaded.append(read)
+    if found:
+        raise Rejected(found)
+    return tuple(loaded)
+
+
+def _at(root: Node, path: list[Any]) -> Node:
+    node = root
+    for key in path:
+        items = list(node) if isinstance(node.value, tuple) else []
+        following = node.get(str(key)) if isinstance(node.value, dict) else items[key] if isinstance(key, int) and key < len(items) else None
+        if following is None:
+            return node
+        node = following
+    return node
+
+
+def _property(node: Node, base: RuleBase, known: set[str] | None, found: list[Diagnostic]) -> Property:
+    def formula(at: Node | None) -> Formula:
+        if at is None:
+            return Formula("atom", ("crashed",))
+        return _formula(str(at.value), at.origin(), base, found)
+
+    cites = tuple(str(n.value) for n in node.get("cites") or ())
+    for cited in cites:
+        if known is not None and cited not in known:
+            near = difflib.get_close_matches(cited, known, 1)
+            found.append(problem("PR104", node.at("cites").origin(), f"there is no rule {cited}", f"did you mean {near[0]}?" if near else "rotra rules list shows what there is"))
+    expect = node.get("expect")
+    witness = node.get("witness")
+    return Property(
+        str(node.at("id").value), str(node.at("says").value), formula(node.at("formula")), cites, tuple(str(n.value) for n in node.get("scenarios") or ()),
+        tuple(formula(n) for n in node.get("assuming") or ()), None if witness is None else formula(witness),
+        bool(node.get("requirement") and node.at("requirement").value), expect.plain() if expect else {}, node.at("id").origin(),  # type: ignore[arg-type]
+    )
+
+
+def _formula(text: str, origin: Origin, base: RuleBase, found: list[Diagnostic]) -> Formula:
+    try:
+        tree = _parser().parse(text)
+    except UnexpectedInput as error:
+        column = getattr(error, "column", 0)
+        where = f"at column {column} of the formula, before {text[max(0, column - 1):][:20]!r}" if isinstance(column, int) and column > 0 else "at its end"
+        found.append(problem("PR102", origin, f"the formula cannot be read {where}", "see properties/README.md for the language"))
+        return Formula("atom", ("crashed",))
+    result = _tree(tree)
+    _check(result, origin, base, found)
+    return result
+
+
+def _tree(tree: Any) -> Formula:
+    match tree.data:
+        case "forall":
+            return Formula("forall", (str(tree.children[0]), _domain(tree.children[1]), _tree(tree.children[2])))
+        case "iff":
+            parts = [_tree(c) for c in tree.children]
+            result = parts[0]
+            for part in parts[1:]:
+                result = Formula("iff", (result, part))
+            return result
+        case "implies":
+            return Formula("implies", (_tree(tree.children[0]), _tree(tree.children[1])))
+        case "or_":
+            return Formula("or", tuple(_tree(c) for c in tree.children))
+        case "and_":
+            return Formula("and", tuple(_tree(c) for c in tree.children))
+        case "binary":
+            left, word, right = tree.children
+            return Formula(str(word), (_tree(left), _tree(right)))
+        case "not_":
+            return Formula("not", (_tree(tree.children[0]),))
+        case "prefixed":
+            return Formula(str(tree.children[0]), (_tree(tree.children[1]),))
+        case "comparison":
+            left, relation, right = tree.children
+            return Formula("compare", (str(relation), _term(left), _term(right)))
+        case "atom":
+            name, *rest = tree.children
+            return Formula("atom", (str(name), *(_term(c) for c in rest if c is not None)))
+    raise AssertionError(tree.data)
+
+
+
+
+def _term(tree: Any) -> Term:
+    match tree.data:
+        case "int_":
+            return int(tree.children[0])
+        case "var_":
+            return Var(str(tree.children[0]))
+        case "any_":
+            return Var("_")
+        case "word_":
+            return Struct(str(tree.children[0]))
+        case "struct":
+            name, *rest = tree.children
+            return Struct(str(name), tuple(_term(c) for c in rest if c is not None))
+        case "sum":
+            result = _term(tree.children[0])
+            for sign, part in zip(tree.children[1::2], tree.children[2::2], strict=True):
+                result = Sum(str(sign), (result, _term(part)))
+            return result
+    raise AssertionError(tree.data)
+
+
+def _domain(tree: Any) -> Any:
+    match tree.data:
+        case "range":
+            return tuple(range(int(tree.children[0]), int(tree.children[1]) + 1))
+        case "named":
+            return str(tree.children[0])
+    return tuple(_term(c) for c in tree.children)
+
+
+def _check(formula: Formula, origin: Origin, base: RuleBase, found: list[Diagnostic]) -> None:
+    """Known words with the right number of arguments; terms of the ontology where a word asks for one."""
+    if formula.op == "forall":
+        if isinstance(formula.args[1], str) and formula.args[1] not in SETS:
+            found.append(problem("PR103", origin, f"there is no set {formula.args[1]}", f"the sets are {', '.join(SETS)}, a range as in 1..4, or a list in braces"))
+        _check(formula.args[2], origin, base, found)
+    elif formula.op == "atom":
+        word, *terms = formula.args
+        if word not in WORDS:
+            near = difflib.get_close_matches(word, WORDS, 1)
+            found.append(problem("PR103", origin, f"{word} is no word of the property language", f"did you mean {near[0]}?" if near else f"the words are {', '.join(sorted(WORDS))}"))
+        elif len(terms) not in WORDS[word]:
+            found.append(problem("PR105", origin, f"{word} has {len(terms)} argument(s) here; it takes {' or '.join(map(str, WORDS[word]))}", "see properties/README.md"))
+        else:
+            _terms(word, terms, origin, base, found)
+    elif formula.op != "compare":
+        for part in formula.args:
+            _check(part, origin, base, found)
+
+
+def _terms(word: str, terms: list[Term], origin: Origin, base: RuleBase, found: list[Diagnostic]) -> None:
+    ontology = base.ontology
+    asked = {"believes": [(0, ontology.beliefs, "belief")], "intends": [(0, ontology.intentions, "intention")]}.get(word, [])
+    if word in ("advised", "ignored"):
+        asked = [(0, ontology.labels, "label"), (1, ontology.actions, "action")]
+    for place, known, kind in asked:
+        if place < len(terms):
+            term = terms[place]
+            if isinstance(term, Struct) and term.name not in known:
+                near = difflib.get_close_matches(term.name, list(known), 1)
+                found.append(problem("PR106", origin, f"{term.name} is no {kind} of the rule base {base.name}", f"did you mean {near[0]}?" if near else "see its ontology.yaml"))
+
+
