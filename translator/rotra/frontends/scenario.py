@@ -7,6 +7,7 @@ Errors: SC1xx and IO1xx, all that are found, as one `Rejected`.
 from __future__ import annotations
 
 import difflib
+import itertools
 import json
 import re
 from collections.abc import Callable
@@ -19,7 +20,6 @@ import jsonschema
 
 from rotra.diagnostics import Diagnostic, Rejected, problem
 from rotra.engines.places import PROJECT
-from rotra.frontends.terms import Struct, parse_ground, show
 from rotra.frontends.textworld import with_text_world
 from rotra.frontends.yamlfile import Node, load_yaml
 from rotra.origins import Origin
@@ -232,7 +232,7 @@ class _Reader:
         driver = DriverCar(self.varied(driver_node, "at", _cell, (0, 0)), _plain(driver_node, "heading", "north"), _plain(driver_node, "task", "straight_on"), driver_node.origin("driver"))
         self.places(rows, lights, driver, driver_node, traffic)
         goal = self.goal(rows, lights, traffic)
-        percepts, exclusions = self.percepts(rows, radius)
+        percepts, exclusions = self.percepts(rows, radius, limit, top)
         if self.found:
             raise Rejected(self.found)
         return Scenario(
@@ -331,33 +331,50 @@ class _Reader:
         within = node.at("overtaken").get("within")
         return Overtaken(name, 3 if within is None else int(within.value))  # type: ignore[call-overload]
 
-    def percepts(self, rows: tuple[str, ...], radius: int) -> tuple[tuple[str, ...], tuple[tuple[str, ...], ...]]:
+    def percepts(self, rows: tuple[str, ...], radius: int, limit: int, top: int) -> tuple[tuple[str, ...], tuple[tuple[str, ...], ...]]:
+        """The declared percepts and what excludes what, patterns written out."""
+        words = _words(radius, limit, top)
         found: list[str] = []
         for node in self.root.get("percepts") or ():
-            text = re.sub(r"\s+", "", str(node.value))
-            if _percept(text) is None:
-                self.refuse("SC109", node, f"{text!r} is no percept", "write one of section `Percepts` of model/README.md, as in light(0,1,red)")
-            else:
-                found.append(text)
+            matching = _matching(str(node.value), words)
+            if not matching:
+                self.refuse("SC109", node, f"{str(node.value)!r} is no percept", "write one of section `Percepts` of model/README.md that the radius and the speeds allow, as in light(0,1,red) or light(0,1,_)")
+            found += matching
+        declared = dict.fromkeys(found)
         exclusions = []
         for node in self.root.get("percept_exclusions") or ():
-            group = tuple(re.sub(r"\s+", "", str(n.value)) for n in node)
-            for text in group:
-                if text not in found and not rows:
-                    self.refuse("SC109", node, f"{text} is excluded but is not among the percepts", "name it under percepts")
-            exclusions.append(group)
-        return tuple(dict.fromkeys(found)), tuple(exclusions)
+            group: list[str] = []
+            for pattern in node:
+                matching = _matching(str(pattern.value), words)
+                among = [t for t in matching if t in declared or rows]
+                if not among:
+                    self.refuse("SC109", pattern, f"{pattern.value} is excluded but is not among the percepts", "name it under percepts")
+                group += among
+            exclusions.append(tuple(dict.fromkeys(group)))
+        return tuple(declared), tuple(exclusions)
 
 
-PERCEPTS = {"road": 3, "car": 2, "light": 3, "stop_line": 2, "speed": 1, "limit": 1, "heading": 1, "drives": 1, "task": 1}
+def _words(radius: int, limit: int, top: int) -> dict[str, tuple[tuple[str, ...], ...]]:
+    """What may stand at each place of each percept."""
+    near = tuple(str(n) for n in range(-radius, radius + 1))
+    return {
+        "road": (near, near, ("ahead", "right", "back", "left")), "car": (near, near), "light": (near, near, ("red", "red_amber", "green", "amber")), "stop_line": (near, near),
+        "speed": (tuple(str(n) for n in range(top + 1)),), "limit": (tuple(str(n) for n in range(1, limit + 1)),), "heading": (("north", "east", "south", "west"),),
+        "drives": (("left", "right"),), "task": (("straight_on", "overtake", "turn_left", "turn_right"),),
+    }  # fmt: skip
 
 
-def _percept(text: str) -> Struct | None:
-    try:
-        literal = parse_ground(text)
-    except (ValueError, IndexError):
-        return None
-    return literal if PERCEPTS.get(literal.name) == len(literal.args) and show(literal) == text else None
+def _matching(pattern: str, words: dict[str, tuple[tuple[str, ...], ...]]) -> list[str]:
+    """The percepts that the pattern stands for: `_` is anything.  None for what is no percept."""
+    shape = re.fullmatch(r"(\w+)\(([^()]*)\)", re.sub(r"\s+", "", pattern))
+    places = words.get(shape[1]) if shape else None
+    given = shape[2].split(",") if shape else []
+    if shape is None or places is None or len(places) != len(given):
+        return []
+    # a speed or a limit may be named that this scenario's own car never reaches
+    free = re.fullmatch(r"0|[1-9]\d?", given[0]) is not None and shape[1] in ("speed", "limit")
+    chosen = [place if g == "_" else (g,) if free or g in place else () for place, g in zip(places, given, strict=True)]
+    return [f"{shape[1]}({','.join(c)})" for c in itertools.product(*chosen)]
 
 
 def _cell(value: Any) -> Cell:
