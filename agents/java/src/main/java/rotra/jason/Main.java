@@ -1,0 +1,53 @@
+package rotra.jason;
+
+import java.io.PrintStream;
+import java.nio.charset.StandardCharsets;
+import javax.json.Json;
+import javax.json.JsonArrayBuilder;
+import javax.json.JsonObject;
+import javax.json.JsonReader;
+import javax.json.JsonString;
+import javax.json.JsonValue;
+
+/** {@code Main parse|formula|run|bench}: one JSON job on standard input, its answer on standard output. */
+public final class Main {
+
+    private Main() { }
+
+    public static void main(String[] args) {
+        PrintStream out = new PrintStream(System.out, false, StandardCharsets.UTF_8);
+        // Standard output carries the answer and nothing else, whatever an agent prints.
+        System.setOut(System.err);
+        Quiet.please();
+        JsonObject job;
+        try (JsonReader reader = Json.createReader(System.in)) {
+            job = reader.readObject();
+        }
+        switch (args.length == 0 ? "" : args[0]) {
+            case "parse" -> out.println(parse(job));
+            case "formula" -> out.println(formulas(job));
+            default -> {
+                System.err.println("usage: Main parse|formula|run|bench");
+                System.exit(2);
+            }
+        }
+        out.flush();
+        System.exit(0);
+    }
+
+    static JsonObject parse(JsonObject job) {
+        JsonArrayBuilder agents = Json.createArrayBuilder();
+        for (JsonString file : job.getJsonArray("files").getValuesAs(JsonString.class)) {
+            agents.add(ParserExport.export(file.getString()));
+        }
+        return Json.createObjectBuilder().add("agents", agents).build();
+    }
+
+    static JsonObject formulas(JsonObject job) {
+        JsonArrayBuilder formulas = Json.createArrayBuilder();
+        for (JsonValue formula : job.getJsonArray("formulas")) {
+            formulas.add(ParserExport.formula(formula.asJsonObject()));
+        }
+        return Json.createObjectBuilder().add("formulas", formulas).build();
+    }
+}
