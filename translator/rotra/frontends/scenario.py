@@ -258,7 +258,7 @@ class _Reader:
             return Varied(value, (value,))
         published = convert(given.at("published").plain())
         declared = given.get("all")
-        values = [published] if declared is None else [convert(v) for v in declared.plain()] if isinstance(declared.value, tuple) else [convert(declared.plain())]
+        values = [published] if declared is None else [convert(n.plain()) for n in declared] if isinstance(declared.value, tuple) else [convert(declared.plain())]
         return Varied(published, tuple(dict.fromkeys([published, *values])))
 
     def light(self, node: Node, rows: tuple[str, ...]) -> Light:

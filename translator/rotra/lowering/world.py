@@ -112,8 +112,8 @@ class _World:
             by_columns.setdefault(frozenset(columns), set()).add(cy)
         width, height = set(range(self.scenario.width)), set(range(self.scenario.height))
         terms = []
-        for columns, rows in sorted(by_columns.items(), key=lambda i: sorted(i[1])):
-            terms.append(conj(TRUE if columns == width else among(x, columns), TRUE if rows == height else among(y, rows)))
+        for across, down in sorted(by_columns.items(), key=lambda i: sorted(i[1])):
+            terms.append(conj(TRUE if across == width else among(x, across), TRUE if down == height else among(y, down)))
         return disj(*terms)
 
     def driver_at(self, cells: Iterable[Cell]) -> Expr:
@@ -127,13 +127,13 @@ class _World:
     def percept(self, percept: Struct) -> Expr:
         s = self.scenario
         match percept.name, percept.args:
-            case "road", (r, a, Struct(flow, ())):
+            case "road", (int(r), int(a), Struct(flow, ())):
                 return self.by_heading(lambda h: [c for c in self.everywhere() if self.flows(_offset(s, c, h, r, a), h, flow)])
-            case "car", (r, a):
+            case "car", (int(r), int(a)):
                 if r % s.width == 0 and a % s.height == 0 and self.straight(r, a):
                     return FALSE
                 return disj(*(self.sees_car(car, r, a) for car in s.traffic))
-            case "light", (r, a, Struct(colour, ())):
+            case "light", (int(r), int(a), Struct(colour, ())):
                 found = []
                 for light in s.lights:
                     h = opposite(light.faces)
@@ -141,16 +141,16 @@ class _World:
                         here = [c for c in self.everywhere() if _offset(s, c, h, r, a) == light.at]
                         found.append(conj(self.facing(h), self.driver_at(here), eq(ref(f"light_{light.name}"), const(colour))))
                 return disj(*found)
-            case "stop_line", (r, a):
+            case "stop_line", (int(r), int(a)):
                 found = []
                 for light in s.lights:
                     h = opposite(light.faces)
                     if h in self.headings:
                         found.append(conj(self.facing(h), self.driver_at([c for c in self.everywhere() if _offset(s, c, h, r, a) == light.stop_line])))
                 return disj(*found)
-            case "speed", (n,):
+            case "speed", (int(n),):
                 return eq(var("speed"), const(n))
-            case "limit", (n,):
+            case "limit", (int(n),):
                 return TRUE if n == s.limit else FALSE
             case "heading", (Struct(h, ()),):
                 return self.facing(h)
@@ -211,10 +211,10 @@ class _World:
         where: list[tuple[Expr, Expr]] = [(var("x"), var("y")), *(self.place(c) for c in s.traffic)]
         crashed: list[Expr] = [var("crashed")] + [var(f"car_{c.name}_crashed") for c in s.traffic]
         names = ["driver", *(c.name for c in s.traffic)]
-        longest = max((a.args[-1] for a in self.acts if a.args), default=0)
-        last = max([longest, *(v for c in s.traffic for v in c.speed.all)])  # type: ignore[type-var]
+        longest = max((int(n) for a in self.acts for n in a.args[-1:] if isinstance(n, int)), default=0)
+        last = max([longest, *(v for c in s.traffic for v in c.speed.all)])
         covered: list[Expr] = []
-        for k in range(1, last + 1):  # type: ignore[operator]
+        for k in range(1, last + 1):
             ways = [self.directions(k)]
             wants = [conj(negate(crashed[0]), disj(*ways[0].values()))]
             for i, car in enumerate(s.traffic, start=1):
