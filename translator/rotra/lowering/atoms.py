@@ -189,6 +189,36 @@ def to_ltl(bound: Bound, write: Callable[[Expr], str]) -> str:
     return "(" + f" {word} ".join(to_ltl(p, write) for p in bound.args) + ")"
 
 
+def to_ctl(bound: Bound, write: Callable[[Expr], str]) -> str | None:
+    """The same claim in CTL, or None where it has no form in the deterministic fragment that both logics share.
+
+    A model checker answers the CTL form on reachable states alone, without a tableau.  Source: M. Maidl, The common
+    fragment of CTL and LTL, FOCS 2000.
+    """
+    if isinstance(bound, State):
+        return f"({write(bound.expr)})"
+    match bound.op, bound.args:
+        case "always", (inner,):
+            return _prefixed("AG", to_ctl(inner, write))
+        case "next", (inner,):
+            return _prefixed("AX", to_ctl(inner, write))
+        case "eventually", (State(expr),):
+            return f"(AF ({write(expr)}))"
+        case "until", (State(left), State(right)):
+            return f"A [({write(left)}) U ({write(right)})]"
+        case "implies", (State(left), right):
+            inside = to_ctl(right, write)
+            return None if inside is None else f"(({write(left)}) -> {inside})"
+        case "and", parts:
+            written = [to_ctl(p, write) for p in parts]
+            return None if None in written else "(" + " & ".join(w for w in written if w is not None) + ")"
+    return None
+
+
+def _prefixed(operator: str, inside: str | None) -> str | None:
+    return None if inside is None else f"({operator} {inside})"
+
+
 def hollow(formula: Formula, words: Any) -> list[tuple[str, Bound]]:
     """What must be true at some time, or the truth of the formula is hollow: antecedents, and what could be ignored.
 

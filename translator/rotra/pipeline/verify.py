@@ -18,7 +18,7 @@ from rotra.emitters.smv import Names, Specification, emit_smv, name_everything, 
 from rotra.engines import places
 from rotra.engines.nusmv import Answers, Check, EngineFailed, Holds, Unknown, Violated, check_model
 from rotra.frontends.properties import Property
-from rotra.lowering.atoms import Bound, Impossible, State, bind, expressions, hollow, is_invariant, negation, to_ltl
+from rotra.lowering.atoms import Bound, Impossible, State, bind, expressions, hollow, is_invariant, negation, to_ctl, to_ltl
 from rotra.lowering.model import Model
 from rotra.lowering.trace import trace_steps
 from rotra.lowering.words import Words
@@ -143,7 +143,8 @@ def _specify(questions: list[Question], names: Names, words: Words, witnesses: b
             claim = to_ltl(q.bound, write)
             if fair:
                 claim = f"(({' & '.join(f'(G F ({write(e)}))' for e in fair)}) -> ({claim}))"
-            ask(q.main, "ltl", claim, True)
+            branching = None if fair else to_ctl(q.bound, write)
+            ask(q.main, "ltl" if branching is None else "ctl", branching or claim, True)
         q.fair = [ask(f"{q.main}_fair{i}", "ctl", f"AG EF ({write(e)})", False) for i, e in enumerate(fair)]
         for i, (what, b) in enumerate(hollow(q.property.formula, words)):
             q.hollow.append((never(f"{q.main}_live{i}", b, False), what))
