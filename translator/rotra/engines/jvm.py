@@ -32,7 +32,8 @@ def ask_java(command: str, job: Mapping[str, Any], timeout: float, on_line: Call
     if not listing.is_file():
         raise EngineError("the Java side is not built: run `make setup`")
     classes = ":".join((*map(str, places.classes()), listing.read_text().strip()))
-    outcome = run([places.java(), "-XX:+UseSerialGC", "-XX:TieredStopAtLevel=1", "-Xshare:auto", "-cp", classes, "rotra.jason.Main", command], stdin=json.dumps(job), timeout=timeout, on_line=on_line)
+    # from the root, because Jason looks for includes of an absolute path as if its leading slash were not there
+    outcome = run([places.java(), "-XX:+UseSerialGC", "-XX:TieredStopAtLevel=1", "-Xshare:auto", "-cp", classes, "rotra.jason.Main", command], stdin=json.dumps(job), timeout=timeout, on_line=on_line, cwd=Path("/"))
     if not outcome.ok:
         raise EngineError(outcome.why())
     if on_line is not None:
@@ -51,7 +52,7 @@ def parse_agents(files: Sequence[Path], timeout: float = 60) -> tuple[Agent, ...
     stored = {f: _stored(f) for f in files}
     todo = [f for f in files if not stored[f].is_file()]
     if todo:
-        answer = ask_java("parse", {"files": [str(f) for f in todo]}, timeout)
+        answer = ask_java("parse", {"files": [str(f.resolve()) for f in todo]}, timeout)
         wrong = []
         for file, entry in zip(todo, answer["agents"], strict=True):
             if entry.get("error"):
