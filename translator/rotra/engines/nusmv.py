@@ -90,7 +90,7 @@ def check_model(nusmv: Path, model: Path, checks: Sequence[Check], timeout: floa
 
 
 def _script(checks: Sequence[Check]) -> str:
-    lines = ["unset traces_show_defines", "unset traces_show_defines_with_next", "go"]
+    lines = ["set partition_method Iwls95CP", "unset traces_show_defines", "unset traces_show_defines_with_next", "go"]
 
     def block(name: str, *commands: str) -> None:
         lines.extend([f'echo "@@begin {name}"', *commands, f'echo "@@end {name}"'])

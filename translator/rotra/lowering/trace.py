@@ -32,6 +32,9 @@ def trace_steps(model: Model, states: Sequence[Mapping[str, Value]]) -> list[dic
     wanted = {d: (adviser.advised(d), adviser.against(d), adviser.justified(d)) for d in adviser.directives}
     own = {b: ref(f"now:{show(b)}") for b in model.driver.beliefs}
     system = model.everything()
+    # what the model leaves out because nobody asks for it: any value will do, so the plainest
+    plain = {v.name: v.initial[0] for v in system.parts[0].variables}
+    states = [{**plain, **state} for state in states]
     definitions = system.definitions()
     percepts = tuple(name for name in definitions if name.startswith("p:"))
     records = [_record(n, model, situation, wanted, own, percepts, state, definitions) for n, state in enumerate(states, start=1)]
