@@ -16,12 +16,12 @@ from typing import Any
 
 import jsonschema
 from lark import Lark
-from lark.exceptions import UnexpectedInput
+from lark.exceptions import UnexpectedInput, UnexpectedToken
 
 from rotra.diagnostics import Diagnostic, Rejected, problem
 from rotra.engines.places import PROJECT
 from rotra.frontends.rules import RuleBase
-from rotra.frontends.terms import Struct, Sum, Term, Var
+from rotra.frontends.terms import Struct, Sum, Term, Var, show, variables
 from rotra.frontends.yamlfile import Node, load_yaml
 from rotra.origins import Origin
 
@@ -30,6 +30,10 @@ WORDS: Mapping[str, tuple[int, ...]] = {
     "believes": (1,), "intends": (1,), "belief": (1,), "goal": (1,), "does": (1,), "percept": (1,), "advised": (2,), "ignored": (1, 2), "crashed": (0,),
     "finished": (0,), "hesitates": (1,), "heading": (1,), "light": (2,), "car": (3,), "busy": (0,), "restless": (0,), "main_goal": (0,),
 }
+# what a car can do and sense: word -> how many arguments (design, sections 3 and 4)
+ACTS: Mapping[str, int] = {"wait": 0, "forward": 1, "change_lane": 2, "turn": 2}
+PERCEPTS: Mapping[str, int] = {"road": 3, "car": 2, "light": 3, "stop_line": 2, "speed": 1, "limit": 1, "heading": 1, "drives": 1, "task": 1}
+HEADINGS = ("north", "east", "south", "west")
 SETS = ("beliefs", "intentions", "actions", "cars", "lights")
 VERDICTS = ("holds", "violated", "vacuous")
 
@@ -74,7 +78,7 @@ def expected(wanted: Property, agent: str | None, scenario: str) -> str | None:
 
 @lru_cache(maxsize=1)
 def _parser() -> Lark:
-    return Lark((Path(__file__).parent / "properties_grammar.lark").read_text(encoding="utf-8"), parser="earley", maybe_placeholders=True)
+    return Lark((Path(__file__).parent / "properties_grammar.lark").read_text(encoding="utf-8"), parser="lalr", maybe_placeholders=True)
 
 
 @lru_cache(maxsize=1)
@@ -85,8 +89,9 @@ def _schema() -> dict[str, Any]:
 
 
 def load_properties(given: str | Path | None, base: RuleBase) -> tuple[Property, ...]:
-    """The shipped catalogue (None), or the properties of one file."""
-    files = sorted((PROJECT / "properties").glob("*.yaml")) if given is None else [Path(given)]
+    """The shipped catalogue (None), one shipped file of it by its name, or the properties of a user's file."""
+    shipped = sorted((PROJECT / "properties").glob("*.yaml"))
+    files = shipped if given is None else [f for f in shipped if f.stem == str(given)] or [Path(given)]
     found: list[Diagnostic] = []
     loaded: list[Property] = []
     for file in files:
@@ -134,6 +139,11 @@ def _property(node: Node, base: RuleBase, known: set[str] | None, found: list[Di
             near = difflib.get_close_matches(cited, known, 1)
             found.append(problem("PR104", node.at("cites").origin(), f"there is no rule {cited}", f"did you mean {near[0]}?" if near else "rotra rules list shows what there is"))
     expect = node.get("expect")
+    stated = [str(n.value) for n in node.get("scenarios") or ()]
+    for driver, verdicts in expect.items() if expect else ():
+        for scenario, verdict in verdicts.items():
+            if stated and scenario not in (*stated, "_"):
+                found.append(problem("PR111", verdict.origin(), f"{scenario} is not among the scenarios of this property, so what {driver} does there is never asked", f"its scenarios are {', '.join(stated)}"))
     witness = node.get("witness")
     return Property(
         str(node.at("id").value), str(node.at("says").value), formula(node.at("formula")), cites, tuple(str(n.value) for n in node.get("scenarios") or ()),
@@ -146,13 +156,35 @@ def _formula(text: str, origin: Origin, base: RuleBase, found: list[Diagnostic])
     try:
         tree = _parser().parse(text)
     except UnexpectedInput as error:
-        column = getattr(error, "column", 0)
-        where = f"at column {column} of the formula, before {text[max(0, column - 1):][:20]!r}" if isinstance(column, int) and column > 0 else "at its end"
+        where = _where(error, text)
         found.append(problem("PR102", origin, f"the formula cannot be read {where}", "see properties/README.md for the language"))
         return Formula("atom", ("crashed",))
     result = _tree(tree)
     _check(result, origin, base, found)
+    for name in sorted(_unbound(result, frozenset())):
+        found.append(problem("PR107", origin, f"no forall says what {name} is", f"write `forall {name} in ...: ` around it, or `_` for anything"))
     return result
+
+
+def _where(error: UnexpectedInput, text: str) -> str:
+    """The place of a syntax error inside the formula, which may be several lines long."""
+    if isinstance(error, UnexpectedToken) and error.token.type == "$END":
+        return "at its end"
+    following = text[error.pos_in_stream or 0 :].split("\n")[0][:20]
+    line = f"line {error.line}, " if "\n" in text.strip() else ""
+    return f"at {line}column {error.column} of the formula, before {following!r}"
+
+
+def _unbound(formula: Formula, bound: frozenset[str]) -> frozenset[str]:
+    """Variables that no forall around them binds."""
+    match formula.op:
+        case "forall":
+            name, domain, inner = formula.args
+            terms = () if isinstance(domain, str) else domain
+            return frozenset().union(_unbound(inner, bound | {name}), *(variables(t) - bound - {"_"} for t in terms))
+        case "atom" | "compare":
+            return frozenset().union(*(variables(t) for t in formula.args[1:])) - bound - {"_"}
+    return frozenset().union(*(_unbound(part, bound) for part in formula.args))
 
 
 def _tree(tree: Any) -> Formula:
@@ -187,8 +219,6 @@ def _tree(tree: Any) -> Formula:
     raise AssertionError(tree.data)
 
 
-
-
 def _term(tree: Any) -> Term:
     match tree.data:
         case "int_":
@@ -213,7 +243,9 @@ def _term(tree: Any) -> Term:
 def _domain(tree: Any) -> Any:
     match tree.data:
         case "range":
-            return tuple(range(int(tree.children[0]), int(tree.children[1]) + 1))
+            low, high = (_term(c) for c in tree.children)
+            assert isinstance(low, int) and isinstance(high, int)
+            return tuple(range(low, high + 1))
         case "named":
             return str(tree.children[0])
     return tuple(_term(c) for c in tree.children)
@@ -224,6 +256,8 @@ def _check(formula: Formula, origin: Origin, base: RuleBase, found: list[Diagnos
     if formula.op == "forall":
         if isinstance(formula.args[1], str) and formula.args[1] not in SETS:
             found.append(problem("PR103", origin, f"there is no set {formula.args[1]}", f"the sets are {', '.join(SETS)}, a range as in 1..4, or a list in braces"))
+        if formula.args[1] == ():
+            found.append(problem("PR108", origin, f"the range of {formula.args[0]} holds nothing", "write the smaller number first, as in 1..4"))
         _check(formula.args[2], origin, base, found)
     elif formula.op == "atom":
         word, *terms = formula.args
@@ -241,7 +275,7 @@ def _check(formula: Formula, origin: Origin, base: RuleBase, found: list[Diagnos
 
 def _terms(word: str, terms: list[Term], origin: Origin, base: RuleBase, found: list[Diagnostic]) -> None:
     ontology = base.ontology
-    asked = {"believes": [(0, ontology.beliefs, "belief")], "intends": [(0, ontology.intentions, "intention")]}.get(word, [])
+    asked: list[tuple[int, Mapping[str, Any], str]] = {"believes": [(0, ontology.beliefs, "belief")], "intends": [(0, ontology.intentions, "intention")]}.get(word, [])
     if word in ("advised", "ignored"):
         asked = [(0, ontology.labels, "label"), (1, ontology.actions, "action")]
     for place, known, kind in asked:
@@ -250,5 +284,18 @@ def _terms(word: str, terms: list[Term], origin: Origin, base: RuleBase, found: 
             if isinstance(term, Struct) and term.name not in known:
                 near = difflib.get_close_matches(term.name, list(known), 1)
                 found.append(problem("PR106", origin, f"{term.name} is no {kind} of the rule base {base.name}", f"did you mean {near[0]}?" if near else "see its ontology.yaml"))
+    if word in ("does", "percept"):
+        _literal(terms[0], "act" if word == "does" else "percept", ACTS if word == "does" else PERCEPTS, origin, found)
+    if word == "heading" and isinstance(terms[0], Struct) and show(terms[0]) not in HEADINGS:
+        found.append(problem("PR109", origin, f"there is no heading {show(terms[0])}", f"the headings are {', '.join(HEADINGS)}"))
 
 
+def _literal(term: Term, kind: str, known: Mapping[str, int], origin: Origin, found: list[Diagnostic]) -> None:
+    """An act or percept must exist; whether it can happen in a scenario is not decided here."""
+    if isinstance(term, Struct) and term.name not in known:
+        near = difflib.get_close_matches(term.name, list(known), 1)
+        found.append(problem("PR109", origin, f"there is no {kind} {show(term)}", f"did you mean {near[0]}?" if near else f"each {kind} is one of {', '.join(known)}"))
+    elif isinstance(term, Struct) and len(term.args) != known[term.name]:
+        found.append(problem("PR105", origin, f"the {kind} {term.name} has {len(term.args)} argument(s) here; it takes {known[term.name]}", "see properties/README.md"))
+    elif isinstance(term, int):
+        found.append(problem("PR109", origin, f"{term} is no {kind}", f"each {kind} is one of {', '.join(known)}"))

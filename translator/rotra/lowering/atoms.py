@@ -58,7 +58,10 @@ def _bind(formula: Formula, given: Mapping[str, Term], words: Any, reasons: list
     match formula.op:
         case "forall":
             name, domain, inner = formula.args
-            return _combine("and", [_bind(inner, {**given, name: value}, words, reasons) for value in members(domain, words)])
+            values = members(domain, words)
+            if not values:
+                reasons.append(f"there are no {domain} here")
+            return _combine("and", [_bind(inner, {**given, name: value}, words, reasons) for value in values])
         case "compare":
             relation, left, right = formula.args
             return State(_compare(relation, _number(left, given, words, reasons), _number(right, given, words, reasons)))
@@ -178,6 +181,79 @@ def is_invariant(bound: Bound) -> Expr | None:
 
 def negation(bound: Bound) -> Bound:
     return _combine("not", [bound])
+
+
+def evaluate_on_lasso(bound: Bound, states: Sequence[Any], loop: int, holds: Callable[[Expr, Any], bool]) -> bool:
+    """Is the claim true of the path that runs through `states` and then returns to `states[loop]` for ever?
+
+    `holds(expr, state)` reads one moment.  Past operators settle one round of the loop later for each level of nesting,
+    so the loop is written out that often; on the last round every value repeats.
+    """
+    period = len(states) - loop
+    path = [*states, *(list(states[loop:]) * _past_depth(bound))]
+    back = len(path) - period
+
+    def previous(v: list[bool]) -> list[bool]:
+        return [False, *v[:-1]]
+
+    def since(left: list[bool], right: list[bool]) -> list[bool]:
+        result: list[bool] = []
+        for a, b in zip(left, right, strict=True):
+            result.append(b or (a and bool(result) and result[-1]))
+        return result
+
+    def until(left: list[bool], right: list[bool]) -> list[bool]:
+        result = [False] * len(path)
+        for _ in range(2):  # the second round knows what the return to `back` finds
+            for i in reversed(range(len(path))):
+                result[i] = right[i] or (left[i] and result[i + 1 if i + 1 < len(path) else back])
+        return result
+
+    def flip(v: list[bool]) -> list[bool]:
+        return [not x for x in v]
+
+    always_true = [True] * len(path)
+
+    def values(b: Bound) -> list[bool]:
+        if isinstance(b, State):
+            return [bool(holds(b.expr, s)) for s in path]
+        parts = [values(p) for p in b.args]
+        match b.op:
+            case "not":
+                return flip(parts[0])
+            case "and":
+                return [all(column) for column in zip(*parts, strict=True)] if parts else always_true
+            case "or":
+                return [any(column) for column in zip(*parts, strict=True)] if parts else flip(always_true)
+            case "implies":
+                return [not p or q for p, q in zip(*parts, strict=True)]
+            case "iff":
+                return [p == q for p, q in zip(*parts, strict=True)]
+            case "next":
+                return [*parts[0][1:], parts[0][back]]
+            case "until":
+                return until(*parts)
+            case "eventually":
+                return until(always_true, parts[0])
+            case "always":
+                return flip(until(always_true, flip(parts[0])))
+            case "previously":
+                return previous(parts[0])
+            case "since":
+                return since(*parts)
+            case "once":
+                return since(always_true, parts[0])
+            case "historically":
+                return flip(since(always_true, flip(parts[0])))
+        raise AssertionError(b.op)
+
+    return values(bound)[0]
+
+
+def _past_depth(bound: Bound) -> int:
+    if isinstance(bound, State):
+        return 0
+    return (bound.op in ("previously", "once", "historically", "since")) + max(map(_past_depth, bound.args), default=0)
 
 
 def to_ltl(bound: Bound, write: Callable[[Expr], str]) -> str:
