@@ -61,11 +61,25 @@ def parse_agents(files: Sequence[Path], timeout: float = 60) -> tuple[Agent, ...
             else:
                 stored[file].parent.mkdir(parents=True, exist_ok=True)
                 fresh = stored[file].with_suffix(".new")
-                fresh.write_text(json.dumps(entry["ast"]))
+                fresh.write_text(json.dumps(_placed(entry["ast"])))
                 fresh.replace(stored[file])
         if wrong:
             raise Rejected(wrong)
     return tuple(read_agent(str(f), json.loads(stored[f].read_text())) for f in files)
+
+
+def _placed(ast: Any) -> Any:
+    """The AST with every file named as a person would: from the project's root, else from the root of the disk."""
+    if isinstance(ast, list):
+        return [_placed(part) for part in ast]
+    if not isinstance(ast, dict):
+        return ast
+    return {key: _shown(value) if key == "file" and isinstance(value, str) else _placed(value) for key, value in ast.items()}
+
+
+def _shown(file: str) -> str:
+    path = Path("/") / file.removeprefix("file:")
+    return str(path.relative_to(places.PROJECT)) if path.is_relative_to(places.PROJECT) else str(path)
 
 
 def _short(message: str) -> str:
@@ -87,5 +101,5 @@ def _stored(file: Path) -> Path:
         todo += [(path.parent / name).resolve() for name in _INCLUDE.findall(text)]
     for exporter in places.classes()[0].glob("rotra/jason/Parser*.class"):
         digest.update(exporter.read_bytes())
-    digest.update(str(file).encode())
+    digest.update(f"{file}\0{Path(__file__).read_text()}".encode())
     return places.PROJECT / ".build" / "ast" / f"{digest.hexdigest()[:32]}.json"
