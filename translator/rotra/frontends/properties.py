@@ -20,6 +20,7 @@ from lark.exceptions import UnexpectedInput, UnexpectedToken
 
 from rotra.diagnostics import Diagnostic, Rejected, problem
 from rotra.engines.places import PROJECT
+from rotra.frontends.fragment import ACTS, PERCEPTS
 from rotra.frontends.rules import RuleBase
 from rotra.frontends.terms import Struct, Sum, Term, Var, show, variables
 from rotra.frontends.yamlfile import Node, load_yaml
@@ -30,9 +31,6 @@ WORDS: Mapping[str, tuple[int, ...]] = {
     "believes": (1,), "intends": (1,), "belief": (1,), "goal": (1,), "does": (1,), "percept": (1,), "advised": (2,), "ignored": (1, 2), "crashed": (0,),
     "finished": (0,), "hesitates": (1,), "heading": (1,), "light": (2,), "car": (3,), "busy": (0,), "restless": (0,), "main_goal": (0,),
 }
-# what a car can do and sense: word -> how many arguments (design, sections 3 and 4)
-ACTS: Mapping[str, int] = {"wait": 0, "forward": 1, "change_lane": 2, "turn": 2}
-PERCEPTS: Mapping[str, int] = {"road": 3, "car": 2, "light": 3, "stop_line": 2, "speed": 1, "limit": 1, "heading": 1, "drives": 1, "task": 1}
 HEADINGS = ("north", "east", "south", "west")
 SETS = ("beliefs", "intentions", "actions", "cars", "lights")
 VERDICTS = ("holds", "violated", "vacuous")
