@@ -258,7 +258,7 @@ def translate(agent: str, scenario: str, output: Path, instance: str, rules: str
 @rules_option
 @click.option("-o", "--output", type=click.Path(path_type=Path), help="Write models, verdicts, counterexamples and witnesses here.")
 @click.option("--jobs", default=2, show_default=True, type=click.IntRange(1, 64))
-@click.option("--timeout", default=120.0, show_default=True, help="Seconds for one driver in one scenario.")
+@click.option("--timeout", default=600.0, show_default=True, help="Seconds for one driver in one scenario.")
 @click.option("--timings", is_flag=True, help="Print the seconds of each phase.")
 @as_json
 @answered
