@@ -133,22 +133,4 @@ class ScenarioTest {
         step(world, "forward(1)");
         assertTrue(Render.text(world).contains(" r  X_ ."), Render.text(world));
     }
-
-    @Test
-    void aStepWithItsPerceptsTakesFarLessThanTenMicroseconds() {
-        World world = Worlds.world(Worlds.driver(1, 7, "north") + ",'lights':[{'name':'tl','at':[0,5],'stop_line':[1,5],'faces':'south'}]"
-                + Worlds.traffic(Worlds.car("a", 2, 3, "north", 1)), ".++.", ".++.", ".++.", ".++.", ".++.", ".++.", ".++.", ".++.");
-        Act forward = Act.parse("forward(1)");
-        long best = Long.MAX_VALUE;
-        for (int round = 0; round < 5; round++) {
-            long start = System.nanoTime();
-            for (int i = 0; i < 20_000; i++) {
-                world.perceive("driver");
-                world.step(Map.of("driver", forward));
-            }
-            best = Math.min(best, (System.nanoTime() - start) / 20_000);
-        }
-        System.out.println("nanoseconds a step with its percepts: " + best);
-        assertTrue(best < 10_000, best + " ns");
-    }
 }
