@@ -152,7 +152,7 @@ def test_open_scenario_says_one_of_each_kind() -> None:
     for kind in ("speed", "limit", "heading", "drives", "task"):
         assert sum(evaluate(definitions[n], state, definitions) for n in names if n.startswith(f"p:{kind}(")) == 1
     assert all(evaluate(e, state, definitions) for e in part.invariant)
-    state["sensed light(0,1,red)"] = state["sensed light(0,1,green)"] = True
+    state["sensed light(-1,1,red)"] = state["sensed light(-1,1,green)"] = True
     assert not all(evaluate(e, state, definitions) for e in part.invariant)
 
 
