@@ -118,6 +118,10 @@ class Rejected(Exception):
         self.diagnostics = tuple(sorted(set(diagnostics), key=lambda d: (d.origin.file, d.origin.line, d.code, d.message)))
         super().__init__("\n".join(d.text() for d in self.diagnostics))
 
+    def __reduce__(self) -> tuple[type[Rejected], tuple[tuple[Diagnostic, ...]]]:
+        """A refusal in a worker process reaches the command whole."""
+        return Rejected, (self.diagnostics,)
+
 
 def problem(code: str, origin: Origin, message: str, hint: str = "") -> Diagnostic:
     """A diagnostic with the text of its own line read back from the file, where the file can still be read."""
