@@ -354,7 +354,7 @@ class _Build:
         self.define("act", by_leaf(act, const("wait")))
         self.define("at_rest", by_leaf(lambda _, name: const(name), at))
         now: dict[Struct, Expr] = {}
-        variables = [Variable(self.own("at"), tuple(sorted(set(self.minds.values()))), (START,), ref(self.own("at_rest")))]
+        variables = [Variable(self.own("at"), tuple(sorted({*self.minds.values(), START, RESTLESS})), (START,), ref(self.own("at_rest")))]
         initial = frozenset(_initial_beliefs(self.agent))
         for belief in sorted(self.instances, key=show):
             old = self.belief(belief)
