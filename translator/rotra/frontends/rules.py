@@ -29,6 +29,8 @@ PROJECT = Path(__file__).resolve().parents[3]
 RULES = PROJECT / "rules"
 SCHEMAS = RULES / "schema"
 KINDS = ("belief", "intention", "action")
+# Files of the folder that hold no rules.
+BESIDE_THE_RULES = ("ontology.yaml", "directives.yaml", "coverage.yaml", "dropped.yaml")
 # Words of AgentSpeak that cannot be atoms.
 _RESERVED = frozenset("not true false div mod if else elif for while begin end include".split())
 
@@ -351,7 +353,7 @@ def _near(word: str, known: Iterable[str]) -> str:
 def _load_rules(folder: Path, ontology: Ontology, findings: list[Diagnostic]) -> Iterator[Rule]:
     first: dict[str, Rule] = {}
     for file in sorted([*folder.glob("*.yaml"), *folder.glob("*.yml")]):
-        if file.name in ("ontology.yaml", "directives.yaml"):
+        if file.name in BESIDE_THE_RULES:
             continue
         try:
             root = load_yaml(file)
