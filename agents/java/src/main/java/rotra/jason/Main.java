@@ -26,6 +26,8 @@ public final class Main {
         switch (args.length == 0 ? "" : args[0]) {
             case "parse" -> out.println(parse(job));
             case "formula" -> out.println(formulas(job));
+            case "run" -> out.println(run(job));
+            case "bench" -> out.println(bench(job));
             default -> {
                 System.err.println("usage: Main parse|formula|run|bench");
                 System.exit(2);
@@ -49,5 +51,27 @@ public final class Main {
             formulas.add(ParserExport.formula(formula.asJsonObject()));
         }
         return Json.createObjectBuilder().add("formulas", formulas).build();
+    }
+
+    static JsonObject run(JsonObject job) {
+        try {
+            return new Lockstep(Job.read(job)).run();
+        } catch (Exception e) {
+            throw new IllegalStateException("the driver " + job.getString("agent") + " cannot be run: " + e.getMessage(), e);
+        }
+    }
+
+    /** Steps a second without a trace: after a run to warm up, the runs one by one. */
+    static JsonObject bench(JsonObject job) {
+        int runs = job.getInt("runs", 5);
+        JsonObject silent = Json.createObjectBuilder(job).add("trace", false).build();
+        JsonArrayBuilder rates = Json.createArrayBuilder();
+        for (int i = 0; i <= runs; i++) {
+            long rate = run(silent).getJsonNumber("steps_per_second").longValue();
+            if (i > 0) {
+                rates.add(rate);
+            }
+        }
+        return Json.createObjectBuilder().add("steps_per_second", rates).build();
     }
 }
