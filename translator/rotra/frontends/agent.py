@@ -9,7 +9,7 @@ from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from typing import Any
 
-from rotra.frontends.terms import Items, Struct, Sum, Term, Text, Var
+from rotra.frontends.terms import Items, Struct, Sum, Term, Text, Var, resolve
 from rotra.origins import Origin
 
 
@@ -110,7 +110,7 @@ def read_term(data: Mapping[str, Any]) -> Term:
         case "list":
             return Items(tuple(map(read_term, data["items"])) + ((read_term(data["tail"]),) if data.get("tail") else ()))
         case "arith":
-            return Sum(data["op"], tuple(map(read_term, data["args"])))
+            return resolve(Sum(data["op"], tuple(map(read_term, data["args"]))), {})
         case "struct":
             return Struct(data["name"], tuple(map(read_term, data.get("args") or ())), bool(data.get("neg")))
         case "formula":

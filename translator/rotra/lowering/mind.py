@@ -51,7 +51,7 @@ class Choice:
 class DriverModel:
     """`definitions` still grows while questions about the mind at rest are named; `driver_part` closes it.
 
-    `leaves`: the definition that says when a step ends so, and how it then ends.
+    `leaves`: the definition that says when a step ends so, and how it then ends.  `beliefs` may change, `facts` never do.
     """
 
     variables: tuple[Variable, ...]
@@ -63,6 +63,7 @@ class DriverModel:
     beliefs: tuple[Struct, ...]
     rest: Mind
     initial_goals: tuple[Struct, ...]
+    facts: tuple[Struct, ...]
     suffix: str = ""
 
 
@@ -373,7 +374,8 @@ class _Build:
         self.define("main_goal", conj(*(disj(*(g for found, g in self.goals_at_rest(minds, True) if found == goal)) for goal in goals)))
         return DriverModel(
             tuple(variables), self.definitions, tuple(self.choices), tuple((guard.args[0], leaf) for guard, leaf, _ in leaves),
-            minds, tuple(sorted(acts)), tuple(sorted(self.instances, key=show)), rest, goals, self.suffix,
+            minds, tuple(sorted(acts)), tuple(sorted(self.instances, key=show)), rest, goals,
+            tuple(b for b in dict.fromkeys(_initial_beliefs(self.agent)) if b not in self.instances), self.suffix,
         )
 
     def goals_at_rest(self, minds: dict[str, Control], desired: bool) -> list[tuple[Struct, Expr]]:

@@ -13,7 +13,7 @@ from typing import Any
 from rotra.frontends.terms import Var, order, parse_ground, show
 from rotra.lowering.mind import legal_act
 from rotra.lowering.model import Model
-from rotra.system.expr import Expr, Value, evaluate, ref, var
+from rotra.system.expr import TRUE, Expr, Value, evaluate, ref, var
 
 
 @dataclass(frozen=True, slots=True)
@@ -30,7 +30,7 @@ def trace_steps(model: Model, states: Sequence[Mapping[str, Value]]) -> list[dic
     adviser = model.adviser
     situation = Situation(*(tuple((show(t), g) for t, g in adviser.solutions(f, Var("Any"))) for f in ("context", "believes", "intends")))
     wanted = {d: (adviser.advised(d), adviser.against(d), adviser.justified(d)) for d in adviser.directives}
-    own = {b: ref(f"now:{show(b)}") for b in model.driver.beliefs}
+    own = {b: ref(f"now:{show(b)}") for b in model.driver.beliefs} | dict.fromkeys(model.driver.facts, TRUE)
     system = model.everything()
     # what the model leaves out because nobody asks for it: any value will do, so the plainest
     plain = {v.name: v.initial[0] for v in system.parts[0].variables}

@@ -8,6 +8,7 @@ import jason.asSemantics.TransitionSystem;
 import jason.asSemantics.Unifier;
 import jason.asSyntax.ASSyntax;
 import jason.asSyntax.Literal;
+import jason.asSyntax.Rule;
 import jason.asSyntax.StringTerm;
 import jason.asSyntax.Term;
 import jason.asSyntax.Trigger;
@@ -20,6 +21,7 @@ import java.util.Iterator;
 import java.util.LinkedHashMap;
 import java.util.List;
 import java.util.Map;
+import java.util.Set;
 import java.util.SortedSet;
 import java.util.TreeSet;
 import javax.json.Json;
@@ -37,6 +39,7 @@ final class RestReader {
     private record Directive(String label, String action) { }
 
     private static final String MUST = "must";
+    private static final Set<String> ADVISER = Set.of("advised", "advised_next", "rule_of", "contradicted", "intends");
 
     private final TransitionSystem mind;
     private final Agent agent;
@@ -121,10 +124,15 @@ final class RestReader {
         return found;
     }
 
+    /** The agent's own beliefs; a rule whose body is `true` is one, but those of the rule base are not. */
     private SortedSet<String> beliefs() {
         SortedSet<String> found = new TreeSet<>();
         for (Literal belief : agent.getBB()) {
-            if (!belief.isRule() && belief.hasSource(BeliefBase.ASelf)) {
+            if (belief instanceof Rule rule) {
+                if (rule.getBody() == Literal.LTrue && !ADVISER.contains(rule.getFunctor())) {
+                    found.add(Words.show(rule.headClone()));
+                }
+            } else if (belief.hasSource(BeliefBase.ASelf)) {
                 found.add(Words.show(belief));
             }
         }
