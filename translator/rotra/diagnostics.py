@@ -19,6 +19,7 @@ CODES: dict[str, str] = {
     "IO102": "a key stands twice in one mapping",
     "IO103": "the shape is not what the schema asks for",
     "IO104": "output would leave its folder or overwrite a foreign file",
+    "IO105": "a file name that cannot stand in a Jason project",
     "SC100": "no such scenario",
     "SC101": "a car off the road",
     "SC102": "rows of different length",

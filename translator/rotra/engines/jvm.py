@@ -61,23 +61,23 @@ def parse_agents(files: Sequence[Path], timeout: float = 60) -> tuple[Agent, ...
             else:
                 stored[file].parent.mkdir(parents=True, exist_ok=True)
                 fresh = stored[file].with_suffix(".new")
-                fresh.write_text(json.dumps(_placed(entry["ast"])))
+                fresh.write_text(json.dumps(placed(entry["ast"])))
                 fresh.replace(stored[file])
         if wrong:
             raise Rejected(wrong)
     return tuple(read_agent(str(f), json.loads(stored[f].read_text())) for f in files)
 
 
-def _placed(ast: Any) -> Any:
-    """The AST with every file named as a person would: from the project's root, else from the root of the disk."""
+def placed(ast: Any) -> Any:
+    """What Java says (an AST, a trace), with every file named as a person would: from the project's root, else from the root of the disk."""
     if isinstance(ast, list):
-        return [_placed(part) for part in ast]
+        return [placed(part) for part in ast]
     if not isinstance(ast, dict):
         return ast
-    return {key: _shown(value) if key == "file" and isinstance(value, str) else _placed(value) for key, value in ast.items()}
+    return {key: shown_path(value) if key == "file" and isinstance(value, str) else placed(value) for key, value in ast.items()}
 
 
-def _shown(file: str) -> str:
+def shown_path(file: str) -> str:
     path = Path("/") / file.removeprefix("file:")
     return str(path.relative_to(places.PROJECT)) if path.is_relative_to(places.PROJECT) else str(path)
 
@@ -86,19 +86,24 @@ def _short(message: str) -> str:
     return re.sub(r"\s+", " ", message).strip()[:300]
 
 
-def _stored(file: Path) -> Path:
-    """Where the AST of a file is kept: named by its path, its text and the text of all it includes."""
-    digest = hashlib.sha256()
-    seen: set[Path] = set()
+def included_files(file: Path) -> tuple[Path, ...]:
+    """The file and all that it includes, directly or not, as absolute paths; a file that is not there is left out."""
+    seen: dict[Path, None] = {}
     todo = [file.resolve()]
     while todo:
         path = todo.pop()
-        if path in seen:
-            continue
-        seen.add(path)
-        text = path.read_text(encoding="utf-8", errors="replace") if path.is_file() else ""
+        if path not in seen and path.is_file():
+            seen[path] = None
+            todo += [(path.parent / name).resolve() for name in _INCLUDE.findall(path.read_text(encoding="utf-8", errors="replace"))]
+    return tuple(seen)
+
+
+def _stored(file: Path) -> Path:
+    """Where the AST of a file is kept: named by its path, its text and the text of all it includes."""
+    digest = hashlib.sha256()
+    for path in included_files(file):
+        text = path.read_text(encoding="utf-8", errors="replace")
         digest.update(f"{path}\0{text}\0".encode())
-        todo += [(path.parent / name).resolve() for name in _INCLUDE.findall(text)]
     for exporter in places.classes()[0].glob("rotra/jason/Parser*.class"):
         digest.update(exporter.read_bytes())
     digest.update(f"{file}\0{Path(__file__).read_text()}".encode())

@@ -32,3 +32,10 @@ def classpath_file() -> Path:
 def classes() -> tuple[Path, ...]:
     """The project's own compiled classes: the Jason side, then the world."""
     return (PROJECT / "agents" / "java" / "target" / "classes", PROJECT / "model" / "java" / "target" / "classes")
+
+
+def jars() -> tuple[Path, ...]:
+    """All that a run in Jason needs, as jars: ours, then the libraries, Jason's own among them."""
+    listing = classpath_file()
+    own = [jar for side in ("agents", "model") for jar in sorted((PROJECT / side / "java" / "target").glob("rotra-*.jar"))]
+    return (*own, *(Path(entry) for entry in listing.read_text().strip().split(":"))) if listing.is_file() else tuple(own)

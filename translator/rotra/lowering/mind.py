@@ -256,7 +256,8 @@ class _Build:
         """The control at the start of a step: last step's acts have their results, percept events are queued."""
         events = list(rest.events)
         if first:
-            events += [Event("+", "belief", b) for b in _initial_beliefs(self.agent) if self.machine.candidates("+", "belief", b)]
+            # Jason adds what it finds at the start from the last to the first
+            events += [Event("+", "belief", b) for b in reversed(tuple(_initial_beliefs(self.agent))) if self.machine.candidates("+", "belief", b)]
             events += [Event("+", "achieve", goal) for goal, _ in self.agent.goals]
         for op in "-+":
             for percept in self.watched(op):

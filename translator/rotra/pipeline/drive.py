@@ -10,10 +10,13 @@ import tempfile
 from pathlib import Path
 from typing import Any
 
-from rotra.engines.jvm import ask_java
+from rotra.engines.jvm import ask_java, placed
 from rotra.frontends.scenario import Scenario, instance, resolve_scenario, scenario_json
 from rotra.pipeline.campaign import trace_document
 from rotra.pipeline.inputs import Driver, Law, check_driver, load_drivers, load_law
+
+# reasoning cycles in one step, after which a driver is said not to come to rest
+CAP = 500
 
 
 def drive(agent: str, scenario: str, steps: int, which: str, rules: str, seed: int | None, until: str | None) -> dict[str, Any]:
@@ -27,14 +30,20 @@ def drive(agent: str, scenario: str, steps: int, which: str, rules: str, seed: i
     return {**document, "seed": seed, "fault": answer.get("fault"), "steps_per_second": answer.get("steps_per_second")}
 
 
+def run_request(world: Scenario, steps: int) -> dict[str, Any]:
+    """A run of the published start as `rotra.jason.Job` reads it; agent and rules are still to be named."""
+    return {"world": scenario_json(world), "steps": steps, "start": None, "seed": None, "choices": None, "percepts": None, "until": None, "trace": True, "cap": CAP}
+
+
 def run_in_jason(driver: Driver, law: Law, world: Scenario, steps: int, job: dict[str, Any]) -> dict[str, Any]:
     """The Java side's answer to a run; `job` gives start, seed, choices, percepts and until."""
     with tempfile.TemporaryDirectory(prefix="rotra-") as folder:
         advice = Path(folder) / "advice.asl"
         advice.write_text(law.text, encoding="utf-8")
-        request = {"agent": str(driver.file), "rules": str(advice), "world": scenario_json(world), "steps": steps, "trace": True, "cap": 500, **job}
+        request = {**run_request(world, steps), "agent": str(driver.file.resolve()), "rules": str(advice), **job}
         answer = ask_java("run", request, timeout=60 + steps / 100)
     assert isinstance(answer, dict)
+    answer["steps"] = placed(answer["steps"])
     return answer
 
 

@@ -35,41 +35,27 @@ final class Lockstep extends AgArch {
     /** The whole run. */
     JsonObject run() {
         long start = System.nanoTime();
-        int steps = 0;
-        while (!ride.over()) {
-            step();
-            steps++;
+        percepts = ride.next();
+        while (percepts != null) {
+            deliberate();
+            ride.rested();
+            percepts = ride.next();
         }
         double seconds = (System.nanoTime() - start) / 1e9;
-        return ride.answer().add("steps_per_second", Math.round(steps / Math.max(seconds, 1e-9))).build();
+        return ride.answer().add("steps_per_second", Math.round(ride.steps() / Math.max(seconds, 1e-9))).build();
     }
 
-    /** So many steps, for the benchmark. */
-    void run(int steps) {
-        for (int i = 0; i < steps && !ride.over(); i++) {
-            step();
-        }
-    }
-
-    private void step() {
-        percepts = ride.sense();
+    private void deliberate() {
         TransitionSystem mind = getTS();
-        if (!ride.thinks()) {
-            mind.getAg().buf(percepts);
-            ride.rested();
-            return;
-        }
         int cycles = 0;
         do {
             mind.reasoningCycle();
             ride.cycled();
             cycles++;
         } while (!mind.canSleep() && cycles < cap);
-        boolean rests = mind.canSleep();
-        if (!rests) {
+        if (!mind.canSleep()) {
             ride.restless(cycles);
         }
-        ride.rested();
     }
 
     @Override

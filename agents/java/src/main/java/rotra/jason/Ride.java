@@ -25,7 +25,7 @@ import rotra.world.World;
  * One driver in its world, step by step, whoever runs its reasoning cycles: {@link Lockstep} or stock Jason ({@link StockDriverArch}).
  *
  * <pre>
- *     sense() -> percepts; cycles until at rest, with acted(..) for each act asked for and cycled() after each cycle; rested()
+ *     next() -> percepts; cycles until at rest, with acted(..) for each act asked for and cycled() after each cycle; rested()
  * </pre>
  *
  * In: a job; the mind (a TransitionSystem) at rest.  Out: percepts, the results of acts as Jason's feedback, a trace (design,
@@ -56,14 +56,27 @@ final class Ride {
         reader = job.trace() ? new RestReader(mind, Act.all(job.world().topSpeed())) : null;
     }
 
-    /** Is the run over? */
-    boolean over() {
+    /** Is the run over with the step that was begun last? */
+    private boolean over() {
         boolean reached = job.until().equals("crashed") && !job.world().isOpen() && world.crashed(driver) || job.until().equals("finished") && world.finished();
         return fault != null || step >= job.steps() || reached;
     }
 
-    /** A new step: the world chooses, the driver senses.  The list is fresh and sorted. */
-    Collection<Literal> sense() {
+    /** The percepts of the next step in which the driver thinks, a fresh sorted list; null when the run is over. */
+    Collection<Literal> next() {
+        while (!over()) {
+            Collection<Literal> percepts = sense();
+            if (thinks()) {
+                return percepts;
+            }
+            mind.getAg().buf(percepts);
+            rested();
+        }
+        return null;
+    }
+
+    /** A new step: the world chooses, the driver senses. */
+    private Collection<Literal> sense() {
         step++;
         choose();
         seen = world.perceive(driver);
@@ -85,8 +98,12 @@ final class Ride {
         }
     }
 
+    int steps() {
+        return step;
+    }
+
     /** May the driver think in this step?  A crashed one does nothing more. */
-    boolean thinks() {
+    private boolean thinks() {
         return job.world().isOpen() || !world.crashed(driver);
     }
 
