@@ -4,7 +4,6 @@ import jason.asSemantics.Unifier;
 import jason.asSyntax.Literal;
 import jason.asSyntax.NumberTerm;
 import jason.asSyntax.PredicateIndicator;
-import jason.asSyntax.Rule;
 import jason.asSyntax.StringTerm;
 import jason.asSyntax.Term;
 import jason.asSyntax.VarTerm;
@@ -17,19 +16,18 @@ import java.util.List;
 import java.util.Map;
 
 /**
- * Jason's belief base with an index on the arguments of rule heads, so that hundreds of rules cost what the few that fit cost.
+ * Jason's belief base with an index on the arguments of beliefs and rule heads: hundreds of rules cost what the few that fit cost.
  *
  * <pre>
  *     advised(must, stop_at_white_line)?     of 300 rules for advised/2 only the five with that action are tried
  * </pre>
  *
- * In: what Jason puts in.  Out: the same answers in the same order.  Only a predicate made of rules alone is indexed; any change
- * to a predicate drops its index.
+ * In: what Jason puts in.  Out: the same answers in the same order; a query that is under way does not see what changes meanwhile.
+ * Any change to a predicate drops its index.
  */
 public final class IndexedBeliefBase extends DefaultBeliefBase {
 
     private static final long serialVersionUID = 1L;
-    private static final int WORTH_IT = 3;
 
     private final transient Map<PredicateIndicator, Index> indices = new HashMap<>();
 
@@ -63,51 +61,45 @@ public final class IndexedBeliefBase extends DefaultBeliefBase {
             return super.getCandidateBeliefs(query, unifier);
         }
         Index index = indices.computeIfAbsent(query.getPredicateIndicator(), this::index);
-        return index == Index.NONE ? super.getCandidateBeliefs(query, unifier) : index.candidates(query, unifier).iterator();
+        return index.candidates(query, unifier).iterator();
     }
 
     private Index index(PredicateIndicator predicate) {
         Iterator<Literal> all = getCandidateBeliefs(predicate);
-        List<Literal> rules = new ArrayList<>();
+        List<Literal> beliefs = new ArrayList<>();
         while (all != null && all.hasNext()) {
-            Literal belief = all.next();
-            if (!(belief instanceof Rule)) {
-                return Index.NONE;
-            }
-            rules.add(belief);
+            beliefs.add(all.next());
         }
-        return rules.size() < WORTH_IT ? Index.NONE : new Index(rules, predicate.getArity());
+        return new Index(beliefs, predicate.getArity());
     }
 
-    /** Per argument: the rules whose head may have that value there, in the order of the belief base. */
+    /** Per argument: the beliefs that may have that value there, in the order of the belief base. */
     private static final class Index {
-
-        static final Index NONE = new Index(List.of(), 0);
 
         private final List<Literal> all;
         private final List<Map<Object, List<Literal>>> byValue = new ArrayList<>();
         private final List<List<Literal>> byVariable = new ArrayList<>();
 
-        Index(List<Literal> rules, int arity) {
-            all = rules;
+        Index(List<Literal> beliefs, int arity) {
+            all = beliefs;
             for (int i = 0; i < arity; i++) {
                 Map<Object, List<Literal>> values = new HashMap<>();
                 List<Literal> variable = new ArrayList<>();
                 LinkedHashSet<Object> keys = new LinkedHashSet<>();
-                for (Literal rule : rules) {
-                    Object key = key(rule.getTerm(i), null);
+                for (Literal belief : beliefs) {
+                    Object key = key(belief.getTerm(i), null);
                     if (key != null) {
                         keys.add(key);
                     }
                 }
                 keys.forEach(key -> values.put(key, new ArrayList<>()));
-                for (Literal rule : rules) {
-                    Object key = key(rule.getTerm(i), null);
+                for (Literal belief : beliefs) {
+                    Object key = key(belief.getTerm(i), null);
                     if (key != null) {
-                        values.get(key).add(rule);
+                        values.get(key).add(belief);
                     } else {
-                        variable.add(rule);
-                        values.values().forEach(list -> list.add(rule));
+                        variable.add(belief);
+                        values.values().forEach(list -> list.add(belief));
                     }
                 }
                 byValue.add(values);
