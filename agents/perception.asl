@@ -32,7 +32,7 @@ believes(light_green) :- light_shows(green).
 believes(at_traffic_light)    :- stop_line(0,0).
 believes(traffic_light_ahead) :- next_line(A) & A > 0.
 believes(able_to_stop_by_white_line) :- next_line(_).      // a car of this world can stop in any cell
-believes(exit_not_clear) :- next_line(A) & car(0,B) & B > A & B <= A + 2.
+believes(exit_blocked) :- next_line(A) & car(0,B) & B > A & B <= A + 2.
 
 // ---- speed ----
 believes(driving).
@@ -54,8 +54,8 @@ believes(vehicle_passed)     :- nearside_lane(R) & car(R,A) & A < -1.
 // a car just behind in that lane may enter the very cell we would
 believes(safe_to_move_left)  :- nearside_lane(R) & not car(R,0) & not car(R,-1) & not stop_line(0,0).
 // before pulling out: no lane to pull out into, or somebody in it beside us, ahead or about to pass
-believes(road_ahead_not_clear) :- not nearside_lane(_) & not offside_lane(_).
-believes(road_ahead_not_clear) :- not nearside_lane(_) & offside_lane(R) & car(R,A) & A >= -1.
+believes(overtaking_road_blocked) :- not nearside_lane(_) & not offside_lane(_).
+believes(overtaking_road_blocked) :- not nearside_lane(_) & offside_lane(R) & car(R,A) & A >= -1.
 
 // ---- junctions ----
 believes(at_junction) :- road(1,0,right).
