@@ -1,4 +1,4 @@
-"""Does the path of a trace happen in the running Jason system?
+"""Does the path of a trace happen in the running Jason system, and a run of Jason in the model?
 
 In: a trace document (of the model or of a run).  Out: None, or the first difference.  Left to others: finding the path.
 The start and the choices of the world are taken from the trace; all else is Jason's and the Java world's.
@@ -6,11 +6,14 @@ The start and the choices of the world are taken from the trace; all else is Jas
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from typing import Any
 
 from rotra.diagnostics import Rejected, problem
 from rotra.frontends.scenario import instance, resolve_scenario
+from rotra.lowering.model import build_model
+from rotra.lowering.trace import trace_steps
+from rotra.lowering.walk import walk
 from rotra.origins import Origin
 from rotra.pipeline.drive import run_in_jason
 from rotra.pipeline.inputs import check_driver, load_drivers, load_law
@@ -36,13 +39,38 @@ def replay_trace(trace: Mapping[str, Any]) -> dict[str, Any] | None:
     else:
         job["start"] = _start(path[0], world)
     answer = run_in_jason(driver, law, world, len(path), job)
-    for number, (expected, seen) in enumerate(zip(path, answer["steps"], strict=False), start=1):
-        for what in COMPARED:
-            if what in expected and what in seen and _comparable(what, expected[what]) != _comparable(what, seen[what]):
-                return {"step": number, "what": what, "trace": expected[what], "jason": seen[what]}
+    parted = first_difference(path, answer["steps"])
+    if parted is not None:
+        number, what = parted
+        return {"step": number, "what": what, "trace": path[number - 1][what], "jason": answer["steps"][number - 1][what]}
     if len([s for s in answer["steps"] if "acts" in s]) < len(path):
         fault = answer.get("fault") or {}
         return {"step": len(answer["steps"]), "what": "the run", "trace": "goes on", "jason": fault.get("message") or "ends"}
+    return None
+
+
+def accept_run(trace: Mapping[str, Any]) -> dict[str, Any] | None:
+    """The first step and value where the model parts from a run in Jason: is the run a path of the model?"""
+    (driver,) = load_drivers([trace["agent"]])
+    law = load_law(trace.get("rules") or "uk")
+    world = instance(resolve_scenario(trace["scenario"]), trace.get("instance") or "all")
+    check_driver(driver, world)
+    model = build_model(driver.agent, law.advice, law.origins, world)
+    path = [s for s in trace["steps"] if "acts" in s]
+    steps = trace_steps(model, walk(model, path))
+    parted = first_difference(path, steps)
+    if parted is None:
+        return None
+    number, what = parted
+    return {"step": number, "what": what, "trace": path[number - 1][what], "model": steps[number - 1][what]}
+
+
+def first_difference(one: Sequence[Mapping[str, Any]], other: Sequence[Mapping[str, Any]]) -> tuple[int, str] | None:
+    """Number (from 1) and entry of the first step in which two traces differ, as far as both go."""
+    for number, (a, b) in enumerate(zip(one, other, strict=False), start=1):
+        for what in COMPARED:
+            if what in a and what in b and _comparable(what, a[what]) != _comparable(what, b[what]):
+                return number, what
     return None
 
 
