@@ -15,7 +15,7 @@ import difflib
 import json
 import re
 from collections.abc import Iterable, Iterator, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from functools import cache
 from pathlib import Path
 from typing import Any
@@ -50,7 +50,8 @@ class Term:
 
 @dataclass(frozen=True, slots=True)
 class Ontology:
-    """The words of a rule base.  `contexts` and `labels` map each word to its meaning; labels stand in order of rank."""
+    """The words of a rule base.  `contexts`, `labels` and `authorities` map each word to its meaning; labels and authorities
+    stand in order of rank.  `imported_from`: the file that an import read, "" for a base of our own making."""
 
     contexts: Mapping[str, str]
     labels: Mapping[str, str]
@@ -58,6 +59,8 @@ class Ontology:
     intentions: Mapping[str, Term]
     actions: Mapping[str, Term]
     names: Mapping[tuple[str, str], str]
+    authorities: Mapping[str, str] = field(default_factory=dict)
+    imported_from: str = ""
 
     def canonical(self, kind: str, word: str) -> str | None:
         """The term that a word (a name or an alias) stands for; None where it is unknown."""
@@ -77,6 +80,16 @@ class Directive:
 
 
 @dataclass(frozen=True, slots=True)
+class Acceptance:
+    """A finding of `rules check` that its author knows of and leaves as it is.  `other`: the rule or word it is about."""
+
+    finding: str
+    other: str
+    reason: str
+    origin: Origin
+
+
+@dataclass(frozen=True, slots=True)
 class Rule:
     """Applicable iff the contexts are equal, its beliefs and intentions are all there, and nothing of `unless_*` is."""
 
@@ -93,6 +106,9 @@ class Rule:
     published_name: str
     section: str
     origin: Origin
+    note: str = ""
+    authority: str = ""
+    accept: tuple[Acceptance, ...] = ()
 
 
 @dataclass(frozen=True, slots=True)
@@ -118,13 +134,14 @@ class Meaning:
 
 @dataclass(frozen=True, slots=True)
 class RuleBase:
-    """`name` is the jurisdiction; rules stand in the order of their files and lines."""
+    """`name` is the jurisdiction; rules stand in the order of their files and lines.  `accept`: findings about no one rule."""
 
     name: str
     folder: str
     ontology: Ontology
     rules: tuple[Rule, ...]
     meanings: tuple[Meaning, ...]
+    accept: tuple[Acceptance, ...] = ()
 
     def rule(self, identity: str) -> Rule | None:
         return next((r for r in self.rules if r.id == identity), None)
@@ -147,7 +164,8 @@ def load_rule_base(given: str | Path) -> RuleBase:
     meanings: tuple[Meaning, ...] = ()
     if (folder / "directives.yaml").is_file():
         meanings = tuple(_load_meanings(folder / "directives.yaml", ontology[1], findings))
-    rules = tuple(_load_rules(folder, ontology[1], findings))
+    accept: list[Acceptance] = []
+    rules = tuple(_load_rules(folder, ontology[1], findings, accept))
     if not rules and not findings:
         findings.append(
             problem(
@@ -159,7 +177,7 @@ def load_rule_base(given: str | Path) -> RuleBase:
         )
     if findings:
         raise Rejected(findings)
-    return RuleBase(ontology[0], shown_path(str(folder)), ontology[1], rules, meanings)
+    return RuleBase(ontology[0], shown_path(str(folder)), ontology[1], rules, meanings, tuple(accept))
 
 
 def shown_path(file: str) -> str:
@@ -274,6 +292,8 @@ def _load_ontology(file: Path, findings: list[Diagnostic]) -> tuple[str, Ontolog
         tables["intention"],
         tables["action"],
         names,
+        _words(root, "authorities", findings) if root.get("authorities") else {},
+        str(root.at("imported_from").value) if root.get("imported_from") else "",
     )
     for kind in KINDS:
         for term in tables[kind].values():
@@ -350,7 +370,7 @@ def _near(word: str, known: Iterable[str]) -> str:
 # ---- rules -----------------------------------------------------------------------------------------------------------
 
 
-def _load_rules(folder: Path, ontology: Ontology, findings: list[Diagnostic]) -> Iterator[Rule]:
+def _load_rules(folder: Path, ontology: Ontology, findings: list[Diagnostic], accept: list[Acceptance]) -> Iterator[Rule]:
     first: dict[str, Rule] = {}
     for file in sorted([*folder.glob("*.yaml"), *folder.glob("*.yml")]):
         if file.name in BESIDE_THE_RULES:
@@ -362,6 +382,7 @@ def _load_rules(folder: Path, ontology: Ontology, findings: list[Diagnostic]) ->
             continue
         if not _shape(root, "rules", findings):
             continue
+        accept += _acceptances(root)
         for node in root.at("rules"):
             rule = _rule(node, str(root.at("section").value), ontology, findings)
             if rule.id in first:
@@ -392,7 +413,8 @@ def _rule(node: Node, section: str, ontology: Ontology, findings: list[Diagnosti
     directives = tuple(dict.fromkeys(_directive(n, ontology, findings) for n in node.at("directives")))
     unless = [_exception(n, ontology, findings) for n in node.get("unless") or ()]
     legal = tuple(str(n.value) for n in node.get("legal") or ())
-    if any(d.label == "must" for d in directives) and not legal:
+    # What was imported says must on the word of its source, which names no laws.
+    if any(d.label == "must" for d in directives) and not legal and not ontology.imported_from:
         findings.append(
             problem(
                 "RB109",
@@ -401,6 +423,10 @@ def _rule(node: Node, section: str, ontology: Ontology, findings: list[Diagnosti
                 "add `legal: [...]`, or say should: must is for what the law demands",
             )
         )
+    authority = text("authority")
+    if authority and authority not in ontology.authorities:
+        known = ", ".join(ontology.authorities) or "none: add `authorities:` to ontology.yaml, the strongest first"
+        findings.append(problem("RB115", node.at("authority").origin(), f"{authority!r} is not an authority", f"authorities are {known}"))
     return Rule(
         id=text("id"),
         paragraph=text("paragraph"),
@@ -415,6 +441,17 @@ def _rule(node: Node, section: str, ontology: Ontology, findings: list[Diagnosti
         published_name=text("published_name"),
         section=section,
         origin=Origin(shown_path(node.file), node.line, text("id")),
+        note=text("note"),
+        authority=authority,
+        accept=_acceptances(node),
+    )
+
+
+def _acceptances(node: Node) -> tuple[Acceptance, ...]:
+    """What a rule, or a whole file, accepts of the findings of `rules check`."""
+    return tuple(
+        Acceptance(str(n.at("finding").value), str(other.value) if (other := n.get("with")) else "", str(n.at("reason").value), Origin(shown_path(n.file), n.line))
+        for n in node.get("accept") or ()
     )
 
 
