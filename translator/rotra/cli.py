@@ -229,6 +229,26 @@ def rules_show(rule: str, rules: str, as_json: bool) -> None:
             say(f"{key:>12}  {', '.join(map(str, value)) if isinstance(value, list | tuple) else value}")
 
 
+@rules.command("import")
+@click.argument("source", type=click.Path(path_type=Path))
+@click.option("-o", "--output", required=True, type=click.Path(path_type=Path), help="The folder to write.")
+@click.option("--overlay", type=click.Path(path_type=Path), help="Meanings, aliases, exclusions and opposites that Prolog does not say.")
+@as_json
+@answered
+def rules_import(source: Path, output: Path, overlay: Path | None, as_json: bool) -> None:
+    """Make a rule base of the Prolog facts in SOURCE."""
+    from rotra.pipeline.rules_import import import_rules
+
+    made = import_rules(source, output, overlay)
+    if as_json:
+        say_json({"files": [str(p) for p in made.files], "rules": made.rules, "remarks": [d.as_json() for d in made.remarks]})
+        return
+    warn(made.remarks)
+    for path in made.files:
+        say(f"wrote {path}")
+    say(f"{made.rules} rules")
+
+
 @main.command()
 @click.option("--agent", required=True)
 @click.option("--scenario", required=True)

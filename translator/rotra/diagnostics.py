@@ -53,7 +53,7 @@ CODES: dict[str, str] = {
     "RB122": "an action without a label",
     "RB123": "a name repaired on import",
     "RB124": "a rule name that stands twice in an import",
-    "RB125": "an overlay speaks of what the import does not hold",
+    "RB125": "an overlay or a detail speaks of what the import does not hold",
     "RB126": "an accepted finding that is not found",
     "AG100": "Jason's parser refuses the agent",
     "AG101": "no such act",

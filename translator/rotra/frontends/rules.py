@@ -163,7 +163,7 @@ def load_rule_base(given: str | Path) -> RuleBase:
         raise Rejected(findings)
     meanings: tuple[Meaning, ...] = ()
     if (folder / "directives.yaml").is_file():
-        meanings = tuple(_load_meanings(folder / "directives.yaml", ontology[1], findings))
+        meanings = tuple(read_meanings(load_yaml(folder / "directives.yaml"), ontology[1], findings))
     accept: list[Acceptance] = []
     rules = tuple(_load_rules(folder, ontology[1], findings, accept))
     if not rules and not findings:
@@ -221,7 +221,7 @@ def _validator(name: str) -> Any:
     return jsonschema.Draft202012Validator(schema)
 
 
-def _shape(root: Node, schema: str, findings: list[Diagnostic]) -> bool:
+def check_shape(root: Node, schema: str, findings: list[Diagnostic]) -> bool:
     """Is the file's shape right?  Else a finding for each fault, at the line of the value that is wrong."""
     faults = sorted(_validator(schema).iter_errors(root.plain()), key=lambda e: list(map(str, e.absolute_path)))
     for fault in faults:
@@ -264,7 +264,7 @@ def _said(fault: Any) -> str:
 
 def _load_ontology(file: Path, findings: list[Diagnostic]) -> tuple[str, Ontology] | None:
     root = load_yaml(file)
-    if not _shape(root, "ontology", findings):
+    if not check_shape(root, "ontology", findings):
         return None
     names: dict[tuple[str, str], str] = {}
     tables: dict[str, dict[str, Term]] = {kind: {} for kind in KINDS}
@@ -326,9 +326,14 @@ def _term(kind: str, name: str, node: Node, findings: list[Diagnostic]) -> Term:
     )
 
 
+def fit_name(name: str, hyphens: bool = False) -> bool:
+    """Can it be the name of a term, a label, a context?"""
+    return bool(re.fullmatch(r"[a-z][A-Za-z0-9_-]*" if hyphens else r"[a-z][A-Za-z0-9_]*", name)) and name not in _RESERVED
+
+
 def _safe(name: str, node: Node, findings: list[Diagnostic], hyphens: bool = False) -> None:
     """A name goes into AgentSpeak and SMV text as it stands, so it has to be an atom there (an imported action may hold hyphens)."""
-    if re.fullmatch(r"[a-z][A-Za-z0-9_]*" if not hyphens else r"[a-z][A-Za-z0-9_-]*", name) and name not in _RESERVED:
+    if fit_name(name, hyphens):
         return
     findings.append(
         problem(
@@ -380,7 +385,7 @@ def _load_rules(folder: Path, ontology: Ontology, findings: list[Diagnostic], ac
         except Rejected as refusal:
             findings += refusal.diagnostics
             continue
-        if not _shape(root, "rules", findings):
+        if not check_shape(root, "rules", findings):
             continue
         accept += _acceptances(root)
         for node in root.at("rules"):
@@ -480,9 +485,9 @@ def _directive(node: Node, ontology: Ontology, findings: list[Diagnostic]) -> Di
 # ---- what the actions mean in the grid world -------------------------------------------------------------------------
 
 
-def _load_meanings(file: Path, ontology: Ontology, findings: list[Diagnostic]) -> Iterator[Meaning]:
-    root = load_yaml(file)
-    if not _shape(root, "directives", findings):
+def read_meanings(root: Node, ontology: Ontology, findings: list[Diagnostic]) -> Iterator[Meaning]:
+    """The entries of a directives file."""
+    if not check_shape(root, "directives", findings):
         return
     seen: dict[str, str] = {}
     for word, node in root.items():

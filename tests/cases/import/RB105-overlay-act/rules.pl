@@ -1,0 +1,1 @@
+rule(r1, standard, [lightRed], [], [must-stop]).

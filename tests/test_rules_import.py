@@ -1,0 +1,99 @@
+"""Importing the published Prolog form: what is kept, repaired, refused; the published base against its own answers.
+
+A case under cases/import/ is a folder with rules.pl and, where it needs one, overlay.yaml; expected.txt holds what is said
+and, where the import is taken, what is written.
+"""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Callable
+from dataclasses import replace
+from pathlib import Path
+
+import pytest
+
+from reference import reference
+from rotra.advice import Adviser, compile
+from rotra.diagnostics import Rejected
+from rotra.frontends.rules import RuleBase, load_rule_base
+from rotra.pipeline.rules_import import import_rules
+
+CASES = Path(__file__).parent / "cases" / "import"
+OVERLAY = CASES / "published_overlay.yaml"
+
+
+def of_case(case: str, folder: Path) -> str:
+    overlay = CASES / case / "overlay.yaml"
+    try:
+        made = import_rules(CASES / case / "rules.pl", folder, overlay if overlay.is_file() else None)
+        said = [d.text() for d in made.remarks]
+    except Rejected as refusal:
+        return f"{refusal}\n".replace(f"{CASES / case}/", "")
+    written = [f"--- {p.name}\n{p.read_text(encoding='utf-8')}" for p in made.files]
+    return "\n".join([*said, *written]).replace(f"{CASES / case}/", "")
+
+
+@pytest.mark.parametrize("case", sorted(p.name for p in CASES.iterdir() if p.is_dir()))
+def test_cases(case: str, tmp_path: Path, expected: Callable[[Path, str], None]) -> None:
+    said = of_case(case, tmp_path / "made")
+    code = case.split("-")[0]
+    assert (code in said and not (tmp_path / "made").exists()) or not code[-1].isdigit()
+    expected(CASES / case / "expected.txt", said)
+
+
+def test_a_folder_of_others_is_left_alone(tmp_path: Path) -> None:
+    source = CASES / "RB125-overlay" / "rules.pl"
+    (tmp_path / "mine").mkdir()
+    (tmp_path / "mine" / "rules.yaml").write_text("mine\n")
+    with pytest.raises(Rejected, match="IO104"):
+        import_rules(source, tmp_path / "mine")
+    import_rules(source, tmp_path / "made")
+    import_rules(CASES / "RB107-shared-alias" / "rules.pl", tmp_path / "made")
+    assert load_rule_base(tmp_path / "made").ontology.canonical("belief", "redLight") == "redLight"
+
+
+def test_a_missing_file_is_said(tmp_path: Path) -> None:
+    with pytest.raises(Rejected, match="IO100"):
+        import_rules(tmp_path / "absent.pl", tmp_path / "made")
+
+
+@pytest.fixture(scope="module")
+def published(tmp_path_factory: pytest.TempPathFactory) -> RuleBase:
+    folder = tmp_path_factory.mktemp("published") / "base"
+    import_rules(reference("published_rules.pl"), folder, OVERLAY)
+    return load_rule_base(folder)
+
+
+def answers(adviser: Adviser, situation: dict) -> set[str]:
+    advice = adviser.advise(situation["context"], situation["beliefs"], situation["intentions"])
+    return {f"{d.label}-{d.action}" for d in advice.directives}
+
+
+def situations() -> list[dict]:
+    return [json.loads(line) for line in reference("advice_situations.jsonl").read_text(encoding="utf-8").splitlines()]
+
+
+def test_published_answers_are_the_definition(published: RuleBase) -> None:
+    adviser = compile(published)
+    assert [s["id"] for s in situations() if answers(adviser, s) != set(s["by_definition"])] == []
+
+
+def test_the_published_program_differs_by_the_names_that_stand_twice(published: RuleBase) -> None:
+    second = {r.id for r in published.rules if r.id != r.published_name}
+    assert len(published.rules) == 313 and len(second) == 8 and all("#2" in name for name in second)
+    first_of_a_name = compile(replace(published, rules=tuple(r for r in published.rules if r.id not in second)))
+    assert [s["id"] for s in situations() if answers(first_of_a_name, s) != set(s["by_program"])] == []
+
+
+@pytest.mark.parametrize(
+    ("beliefs", "intentions", "asked"),
+    [
+        (["fogLightsOn", "visibilityClear", "driving", "headlightsOn"], [], "must-fog_lights_off"),
+        (["lightRed", "driving", "vehicleSafe", "roadAheadClear"], ["approachingTrafficLight"], "must-stop_at_white_line"),
+    ],
+    ids=["fog lights left on", "approaching a red light"],
+)
+def test_queries_of_the_paper(published: RuleBase, beliefs: list[str], intentions: list[str], asked: str) -> None:
+    always = {"must-consideration_others", "must-drive_care_attention", "must-not_drive_dangerously"}
+    assert answers(compile(published), {"context": "standard", "beliefs": beliefs, "intentions": intentions}) == always | {asked}
