@@ -97,3 +97,17 @@ def test_the_published_program_differs_by_the_names_that_stand_twice(published: 
 def test_queries_of_the_paper(published: RuleBase, beliefs: list[str], intentions: list[str], asked: str) -> None:
     always = {"must-consideration_others", "must-drive_care_attention", "must-not_drive_dangerously"}
     assert answers(compile(published), {"context": "standard", "beliefs": beliefs, "intentions": intentions}) == always | {asked}
+
+
+def test_the_overlay_gives_our_words_to_what_they_mean(published: RuleBase) -> None:
+    ours = load_rule_base("uk").ontology
+    for kind in ("belief", "intention", "action"):
+        for term in published.ontology.terms(kind).values():
+            named = {ours.canonical(kind, alias) for alias in term.aliases} - {None}
+            assert named <= {ours.canonical(kind, term.name), *(ours.canonical(kind, a) for a in term.aliases)}
+
+
+def test_the_paper_s_own_spelling_is_answered_by_our_base() -> None:
+    ours = load_rule_base("uk")
+    said = answers(compile(ours), {"context": "standard", "beliefs": ["fog_lights_on", "visibility_clear", "driving", "headlights_on"], "intentions": []})
+    assert f"must-{ours.ontology.canonical('action', 'fog_lights_off')}" in said
