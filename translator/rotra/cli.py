@@ -249,6 +249,25 @@ def rules_import(source: Path, output: Path, overlay: Path | None, as_json: bool
     say(f"{made.rules} rules")
 
 
+@rules.command("export")
+@click.option("--format", "form", type=click.Choice(["prolog", "jason", "smv"]), required=True)
+@click.option("-o", "--output", type=click.Path(path_type=Path), help="The file to write; the screen if left out.")
+@rules_option
+@as_json
+@answered
+def rules_export(form: str, output: Path | None, rules: str, as_json: bool) -> None:
+    """Write the rule base for Prolog, Jason or NuSMV."""
+    from rotra.pipeline.rules_export import export_rules
+
+    text = export_rules(rules, form, output)
+    if as_json:
+        say_json({"text": text} if output is None else {"files": [str(output)]})
+    elif output is None:
+        click.echo(text, nl=False)
+    else:
+        say(f"wrote {output}")
+
+
 @main.command()
 @click.option("--agent", required=True)
 @click.option("--scenario", required=True)

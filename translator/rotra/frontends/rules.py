@@ -461,8 +461,12 @@ def _acceptances(node: Node) -> tuple[Acceptance, ...]:
 
 
 def _exception(node: Node, ontology: Ontology, findings: list[Diagnostic]) -> tuple[str, str]:
-    """A word of `unless`: an intention where only an intention has that name, else a belief."""
+    """A word of `unless`: of the kind that is named (`intention overtake`), else an intention where only an intention has
+    that name, else a belief."""
     word = str(node.value)
+    stated, _, rest = word.partition(" ")
+    if stated in ("belief", "intention") and rest:
+        return stated, _resolve(ontology, stated, Node(rest.strip(), node.file, node.line), findings)
     if ontology.canonical("belief", word) is None and ontology.canonical("intention", word) is not None:
         return "intention", _resolve(ontology, "intention", node, findings)
     return "belief", _resolve(ontology, "belief", node, findings)

@@ -198,7 +198,8 @@ def _rule(rule: PublishedRule, identity: str, names: _Names, said: dict[str, str
 
     number = re.search(r"\d+", rule.name)
     paragraph = said.get("paragraph", number.group() if number else rule.name or identity)
-    unless = [*of("belief", rule.unless_beliefs), *of("intention", rule.unless_intentions)]
+    beliefs = {name for (kind, _), name in names.words.items() if kind == "belief"}
+    unless = [*of("belief", rule.unless_beliefs), *(f"intention {i}" if i in beliefs else i for i in of("intention", rule.unless_intentions))]
     found: dict[str, Any] = {
         "id": identity,
         "published_name": said.get("published_name", "" if ours and identity == rule.name else rule.name),
@@ -274,17 +275,22 @@ def _ontology(source: Path, published: PublishedRules, names: _Names, overlay: _
         "jurisdiction": str(jurisdiction.value) if jurisdiction else stated if re.fullmatch("[a-z][a-z0-9_]*", stated) else stem if stem[:1].isalpha() else f"rules_{stem}",
         "imported_from": source.name,
         "contexts": {n: d.means for (k, n), d in drafts.items() if k == "context"},
-        "labels": {n: d.means for n, d in _by_rank({n: d for (k, n), d in drafts.items() if k == "label"}, overlay)},
+        "labels": {n: d.means for n, d in _by_rank({n: d for (k, n), d in drafts.items() if k == "label"}, published, overlay)},
         "authorities": {n: d.means for (k, n), d in drafts.items() if k == "authority"},
         **{f"{kind}s": {n: d.plain() for (k, n), d in drafts.items() if k == kind} for kind in KINDS},
     }
     return {key: value for key, value in found.items() if value or key != "authorities"}
 
 
-def _by_rank(labels: dict[str, _Draft], overlay: _Overlay) -> list[tuple[str, _Draft]]:
-    """Labels as the overlay ranks them, else must before should before any other."""
+def _by_rank(labels: dict[str, _Draft], published: PublishedRules, overlay: _Overlay) -> list[tuple[str, _Draft]]:
+    """Labels as the overlay ranks them, else as the file states them, else must before should before any other."""
     stated = overlay.get("labels")
-    rank = [*(n for n, _ in stated.items())] if stated else [*(label for label in _LABELS if label in labels)]
+    if stated:
+        rank = [name for name, _ in stated.items()]
+    elif any(d.about == "term_detail" and d.words[0] == "label" for d in published.details):
+        rank = list(labels)
+    else:
+        rank = list(_LABELS)
     return sorted(labels.items(), key=lambda item: (rank.index(item[0]) if item[0] in rank else len(rank)))
 
 
