@@ -16,7 +16,7 @@ export PIP_DISABLE_PIP_VERSION_CHECK := 1
 # A stamp whose thing is gone (.venv removed, `mvn clean`, an emptied Maven repository) is no stamp.
 $(shell $(TOOLCHAIN)/stale.sh)
 
-.PHONY: help setup verify test check bench clean distclean packages jvm nusmv python
+.PHONY: help setup verify test check bench clean distclean packages testtools jvm nusmv python
 
 help: ## say what there is
 	@sed -n 's/^\([a-z]*\):.*## /  make \1\t/p' Makefile | expand -t 18
@@ -28,7 +28,7 @@ verify: setup ## prove every property of every driver in every scenario
 	@echo "==> rotra verify"
 	@$(VENV)/rotra verify
 
-test: setup ## every test, Java and Python
+test: setup testtools ## every test, Java and Python
 	@echo "==> Java tests"
 	@$(TOOLCHAIN)/maven.sh .build/maven-test.stamp test
 	@echo "==> Python tests"
@@ -55,6 +55,10 @@ distclean: clean ## remove all of it; the next `make` starts from nothing but th
 # --- what the machine must have ---------------------------------------------------------------------------------------
 packages:
 	@$(TOOLCHAIN)/packages.sh
+
+# A test whose tool cannot be had is skipped, and says so.
+testtools:
+	@$(TOOLCHAIN)/packages.sh tests || true
 
 # --- Python: the environment is made anew where the folder it lies in has changed, as its programs name their place ----
 python: packages .build/python.stamp

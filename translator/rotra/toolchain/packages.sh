@@ -1,8 +1,9 @@
 #!/bin/sh
 # Debian packages that the build needs and that are not there: installed when we are root, else named in one line.
-# In: nothing but the machine.  Exit status: 0 all there, 1 something is missing (the line on stderr says what to type).
+# In: the machine; the argument `tests` asks for what only the tests use, too.  Exit status: 0 all there, 1 something is missing (the line on stderr says what to type).
 set -eu
 
+wanted=${1:-}
 missing=""
 program() { command -v "$1" >/dev/null 2>&1 || missing="$missing $2"; }
 header() { printf '#include <stdio.h>\n#include <%s>\n' "$1" | cc -E -o /dev/null - >/dev/null 2>&1 || missing="$missing $2"; }
@@ -32,6 +33,7 @@ look() {
         header expat.h libexpat1-dev
         header readline/readline.h libreadline-dev
     fi
+    [ "$wanted" != tests ] || program swipl swi-prolog-nox
     missing=$(printf '%s\n' $missing | sort -u | tr '\n' ' ' | sed 's/ *$//')
 }
 
