@@ -538,19 +538,20 @@ class Machine:
             if shown in cases:
                 cases[shown][1] = disj(cases[shown][1], guard)  # type: ignore[arg-type]
                 cases[shown][2] |= s.unordered  # type: ignore[operator]
+                cases[shown][3] = disj(cases[shown][3], s.guard)  # type: ignore[arg-type]
             else:
-                cases[shown] = [s.bound, guard, set(s.unordered)]
+                cases[shown] = [s.bound, guard, set(s.unordered), s.guard]
             left = conj(left, negate(s.guard))
             if left is FALSE:
                 break
-        found = [(bound, guard, unordered) for bound, guard, unordered in cases.values()]
-        for i, (_, _, a) in enumerate(found):
-            for _, _, b in found[i + 1 :]:
+        found = list(cases.values())
+        for i, (_, _, a, here) in enumerate(found):
+            for _, _, b, there in found[i + 1 :]:
                 for x in sorted(a, key=show):  # type: ignore[call-overload]
                     for y in sorted(b, key=show):  # type: ignore[call-overload]
-                        if x != y and indicator(x) == indicator(y):
+                        if x != y and indicator(x) == indicator(y) and self.solver.possible(conj(path, here, there)):  # type: ignore[arg-type]
                             raise Rejected([problem("AG106", at, f"which of {show(x)} and {show(y)} is found first depends on which was added last", "ask for one of them by name, or keep one at a time with `-+`")])
-        return [(bound, guard) for bound, guard, _ in found]  # type: ignore[misc]
+        return [(bound, guard) for bound, guard, _, _ in found]  # type: ignore[misc]
 
     def live_in(self, body: Body) -> frozenset[str]:
         if body not in self.live:

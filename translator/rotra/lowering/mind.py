@@ -9,12 +9,12 @@ plans chosen under which condition).  Left to others: the world (world.py), what
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, replace
 
 from rotra.diagnostics import Rejected, problem
 from rotra.frontends.agent import Agent, Plan, Rule, Step, steps_of
-from rotra.frontends.terms import Struct, is_ground, order, show, unify
+from rotra.frontends.terms import Struct, is_ground, order, parse_ground, show, unify
 from rotra.lowering.deliberation import DONE, Control, Event, Frame, Leaf, Machine, Moment, Pending, Stack, advance, step_key
 from rotra.lowering.query import Indicator, Knowledge, Mind, indicator
 from rotra.origins import NOWHERE, Origin
@@ -31,11 +31,16 @@ START, RESTLESS = "start", "restless"
 
 @dataclass(frozen=True, slots=True)
 class Senses:
-    """What a driver may sense and do in a scenario: every percept that can occur (sorted), and the fastest move."""
+    """What a driver may sense and do in a scenario: every percept that can occur (sorted), and the fastest move.
+
+    `views`: the sets of percepts that a place shows (`light(1,2,tl)` for light `tl` there), of which one is seen at a time.
+    """
 
     percepts: tuple[Struct, ...]
     top_speed: int
     may_crash: bool
+    views: tuple[frozenset[str], ...] = ()
+    lights: tuple[str, ...] = ()
 
 
 @dataclass(frozen=True, slots=True)
@@ -96,12 +101,15 @@ def legal_acts(top_speed: int) -> tuple[str, ...]:
 def lower_driver(agent: Agent, advice: Iterable[Rule], senses: Senses, suffix: str = "") -> DriverModel:
     """`suffix` keeps two drivers of one product model apart.  Errors: the AG1xx codes of the fragment, as `Rejected`."""
     known = tuple(sorted({b for b in _initial_beliefs(agent) if indicator(b) in _dynamic(agent)}, key=show))
+    single = _one_at_first(agent)
     while True:
-        build = _Build(agent, tuple(advice), senses, known, suffix)
+        build = _Build(agent, tuple(advice), senses, known, single, suffix)
         model = build.run()
         found = tuple(sorted(build.instances, key=show))
-        if found == known:
+        several = build.several()
+        if found == known and not several:
             return model
+        single -= several
         if len(found) > MAX_BELIEFS:
             worst = max(found, key=lambda b: len(show(b)))
             raise Rejected([problem("AG110", Origin(agent.file, 1), f"beliefs of the form {worst.name}/{len(worst.args)} grow without end", "keep the counter inside a bound, as in `N < 4`")])
@@ -123,24 +131,18 @@ def _dynamic(agent: Agent) -> frozenset[Indicator]:
     return frozenset(changed)
 
 
-def _one_at_a_time(agent: Agent) -> frozenset[Indicator]:
-    """Functors of which at most one belief stands: changed by -+ and - only, at most one of them initial."""
-    result = set(_dynamic(agent))
-    for plan in agent.plans:
-        for step in steps_of(plan.body):
-            if step.kind in ("add", "add_end", "add_new") and isinstance(step.literal, Struct):
-                result.discard(indicator(step.literal))
-    for key in list(result):
-        if sum(indicator(b) == key for b in _initial_beliefs(agent)) > 1:
-            result.discard(key)
-    return frozenset(result)
+def _one_at_first(agent: Agent) -> frozenset[Indicator]:
+    """Functors of which at most one belief may stand at rest: so it is at the start; whether it stays so is proved step by step."""
+    initial = tuple(_initial_beliefs(agent))
+    return frozenset(key for key in _dynamic(agent) if sum(indicator(b) == key for b in initial) <= 1)
 
 
 class _Build:
     """One exploration with a fixed set of possible beliefs; collects what it finds (the only mutable thing here)."""
 
-    def __init__(self, agent: Agent, advice: tuple[Rule, ...], senses: Senses, known: tuple[Struct, ...], suffix: str) -> None:
-        self.agent, self.senses, self.known, self.suffix = agent, senses, known, suffix
+    def __init__(self, agent: Agent, advice: tuple[Rule, ...], senses: Senses, known: tuple[Struct, ...], single: frozenset[Indicator], suffix: str) -> None:
+        self.agent, self.senses, self.known, self.single, self.suffix = agent, senses, known, single, suffix
+        self.leaves: list[Leaf] = []
         self.instances = set(known)
         self.definitions: dict[str, Definition] = {}
         self.by_expr: dict[tuple[str, Expr], Expr] = {}
@@ -185,9 +187,34 @@ class _Build:
                 self.solver.at_most_one(parts)
                 if name != "light":
                     self.solver.assume(disj(*parts))
-        single = _one_at_a_time(self.agent)
-        for key in single:
+        watched = {show(p) for op in "-+" for p in self.watched(op)}
+        if len(watched) > 1:  # their events come in every combination that is not ruled out here
+            self.one_view("now", {show(p): self.percept(p) for p in self.senses.percepts})
+            self.one_view("was", {text: self.was(parse_ground(text)) for text in watched})
+        for key in self.single:
             self.solver.at_most_one([self.belief(b) for b in self.known if indicator(b) == key])
+
+    def one_view(self, when: str, percepts: Mapping[str, Expr]) -> None:
+        """Tell the solver that of the views one at most is seen, what each shows, and that a light has one colour."""
+        views = [(var(f"view {when} {n}"), view) for n, view in enumerate(self.senses.views)]
+        self.solver.at_most_one(v for v, _ in views)
+        colours: dict[str, set[str]] = {}
+        for text, seen in percepts.items():
+            percept = parse_ground(text)
+            if not views or percept.name not in ("road", "stop_line", "light"):
+                continue
+            if percept.name == "light":
+                right, ahead, colour = map(show, percept.args)
+                shown = {light: [v for v, view in views if f"light({right},{ahead},{light})" in view] for light in self.senses.lights}
+                for light in shown:
+                    colours.setdefault(light, set()).add(colour)
+                ways = [conj(disj(*places), var(f"shows {when} {light} {colour}")) for light, places in shown.items()]
+            else:
+                ways = [v for v, view in views if text in view]
+            self.solver.assume(disj(negate(seen), *ways))
+            self.solver.assume(disj(seen, conj(*map(negate, ways))))
+        for light, shades in colours.items():
+            self.solver.at_most_one(var(f"shows {when} {light} {colour}") for colour in sorted(shades))
 
     def belief(self, literal: Struct) -> Expr:
         return var(self.own(f"b:{show(literal)}"))
@@ -243,7 +270,22 @@ class _Build:
                 guard = self.define(f"rest:{number}", leaf.guard, self.ending(leaf))
                 leaves.append((guard, leaf, self.minds[after]))
                 self.instances.update(leaf.beliefs)
+                self.leaves.append(leaf)
         return self.model(at, alive, leaves)
+
+    def several(self) -> frozenset[Indicator]:
+        """The functors taken to be single of which a step may end with two beliefs (induction: they were single before it)."""
+        wrong: set[Indicator] = set()
+        for leaf in self.leaves:
+            held: dict[Indicator, list[Expr]] = {}
+            for belief, condition in leaf.beliefs.items():
+                if condition is not FALSE and indicator(belief) in self.single:
+                    held.setdefault(indicator(belief), []).append(condition)
+            for key, conditions in held.items():
+                pairs = ((a, b) for i, a in enumerate(conditions) for b in conditions[i + 1 :])
+                if key not in wrong and any(self.solver.possible(conj(leaf.guard, a, b)) for a, b in pairs):
+                    wrong.add(key)
+        return frozenset(wrong)
 
     def ending(self, leaf: Leaf) -> Origin:
         """What a step ended with: the line of the act, or of the agent where it asked for none."""
@@ -307,8 +349,16 @@ class _Build:
             f = stack[i]
             if f.returns:
                 return False
-            below_handler = i + 1 < len(stack) and stack[i + 1].op == "-" and stack[i + 1].is_goal and f.literal == stack[i + 1].literal
-            return below_handler or (len(f.body) == 1 and f.body[0].kind == "achieve")
+            return failed(i) or (len(f.body) == 1 and f.body[0].kind == "achieve")
+
+        def failed(i: int) -> bool:
+            """Under a handler, and not below the goal that it handles: gone as soon as the handler is done."""
+            for j in range(i + 1, len(stack)):
+                if stack[j].op == "-" and stack[j].is_goal:
+                    goal = next((k for k in range(j - 1, -1, -1) if stack[k].op == "+" and stack[k].literal == stack[j].literal), j)
+                    if goal <= i:
+                        return True
+            return False
 
         def same(a: Frame, b: Frame) -> bool:
             return (a.op, a.type, a.literal) == (b.op, b.type, b.literal)

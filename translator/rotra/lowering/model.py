@@ -14,7 +14,7 @@ from rotra.frontends.scenario import Scenario
 from rotra.frontends.terms import order, parse_ground
 from rotra.lowering.mind import DriverModel, Senses, driver_part, lower_driver
 from rotra.lowering.vocabulary import Adviser
-from rotra.lowering.world import lower_world, possible_percepts
+from rotra.lowering.world import lower_world, possible_percepts, views
 from rotra.origins import Origin
 from rotra.system.expr import FALSE, Expr, var, walk
 from rotra.system.transition import Part, System
@@ -43,7 +43,8 @@ class Model:
 
 def senses_of(scenario: Scenario) -> Senses:
     percepts = sorted((parse_ground(text) for text in possible_percepts(scenario)), key=lambda p: (p.name, order(p)))
-    return Senses(tuple(percepts), scenario.top_speed, not scenario.is_open)
+    lights = tuple(light.name for light in scenario.lights)
+    return Senses(tuple(percepts), scenario.top_speed, not scenario.is_open, () if scenario.is_open else views(scenario), lights)
 
 
 def build_model(agent: Agent, advice: tuple[Rule, ...], rules: Mapping[str, Origin], scenario: Scenario) -> Model:

@@ -111,6 +111,7 @@ def _record(number: int, model: Model, situation: Situation, wanted: Mapping[Any
         "ignored": ignored,
         "justified": justified,
         "hesitates": [car.name for car in scenario.traffic if f"hesitates_{car.name}" in state and read(f"hesitates_{car.name}")],
+        **({"restless": True} if read("restless") else {}),
         "finished": bool(read("finished")) if "finished" in state else False,
     }
 

@@ -73,6 +73,26 @@ def _road_percepts(scenario: Scenario) -> Iterable[Struct]:
     return (Struct("road", (r, a, Struct(f))) for r, a in _window(scenario) for f in RELATIVE)
 
 
+def views(scenario: Scenario) -> tuple[frozenset[str], ...]:
+    """What the place of a car alone decides: for each cell and heading the percepts of road and lines, and `light(R,A,Name)`
+    for the places of lights.  No two of them are seen at once; an open scenario has none."""
+    road = roads(scenario)
+    found: dict[frozenset[str], None] = {}
+    for cell in road:
+        for heading in HEADINGS:
+            seen = set()
+            for r, a in _window(scenario):
+                there = _offset(scenario, cell, heading, r, a)
+                quarters = {flow: turned(heading, flow) if flow in ("left", "right") else heading if flow == "ahead" else opposite(heading) for flow in RELATIVE}
+                seen |= {f"road({r},{a},{flow})" for flow, way in quarters.items() if way in road.get(there, ())}
+                for light in scenario.lights:
+                    if light.faces == opposite(heading):
+                        seen |= {f"light({r},{a},{light.name})"} if light.at == there else set()
+                        seen |= {f"stop_line({r},{a})"} if light.stop_line == there else set()
+            found[frozenset(seen)] = None
+    return tuple(found)
+
+
 class _World:
     """The definitions and variables of one world, as they are written down."""
 

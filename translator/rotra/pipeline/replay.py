@@ -28,7 +28,7 @@ def replay_trace(trace: Mapping[str, Any]) -> dict[str, Any] | None:
     if not steps:
         raise Rejected([problem("TR103", Origin("trace"), "the trace has no step with an act", "record it with `rotra run --trace` or `rotra verify -o`")])
     loop = trace.get("loop")
-    path = steps + (steps[loop:] if loop is not None else [])
+    path = _while_resting(steps + (steps[loop:] if loop is not None else []))
     (driver,) = load_drivers([trace["agent"]])
     law = load_law(trace.get("rules") or "uk")
     world = instance(resolve_scenario(trace["scenario"]), trace.get("instance") or "all")
@@ -65,9 +65,17 @@ def accept_run(trace: Mapping[str, Any]) -> dict[str, Any] | None:
     return {"step": number, "what": what, "trace": path[number - 1][what], "model": steps[number - 1][what]}
 
 
+def _while_resting(steps: list[Any]) -> list[Any]:
+    """The steps up to the first one in which the mind does not come to rest: there a run ends."""
+    restless = next((n for n, s in enumerate(steps) if s.get("restless")), len(steps))
+    return steps[: restless + 1]
+
+
 def first_difference(one: Sequence[Mapping[str, Any]], other: Sequence[Mapping[str, Any]]) -> tuple[int, str] | None:
-    """Number (from 1) and entry of the first step in which two traces differ, as far as both go."""
+    """Number (from 1) and entry of the first step in which two traces differ, as far as both go and come to rest."""
     for number, (a, b) in enumerate(zip(one, other, strict=False), start=1):
+        if a.get("restless") and b.get("restless"):
+            return None  # what a mind does that never rests depends on when one stops watching it
         for what in COMPARED:
             if what in a and what in b and _comparable(what, a[what]) != _comparable(what, b[what]):
                 return number, what

@@ -34,6 +34,8 @@ import rotra.world.World;
 final class Ride {
 
     private static final String BUSY = "busy";
+    /** A mind that does not rest would fill the trace. */
+    private static final int PLANS_SHOWN = 100;
 
     private final Job job;
     private final World world;
@@ -175,6 +177,9 @@ final class Ride {
         out.add("acts", Json.createObjectBuilder().add(driver, legal && thinks() ? act.toString() : Act.WAIT.toString())).add("busy", busy);
         out.add("plans", plans());
         reader.read(legal ? act : Act.WAIT, thinks(), out);
+        if (fault != null) {
+            out.add("restless", true);
+        }
         if (step == 1) {
             out.add("start", job.startJson());
         }
@@ -189,9 +194,7 @@ final class Ride {
 
     private JsonArrayBuilder plans() {
         JsonArrayBuilder out = Json.createArrayBuilder();
-        for (Option option : chosen) {
-            out.add(PlanName.of(option.getPlan()));
-        }
+        chosen.stream().limit(PLANS_SHOWN).forEach(option -> out.add(PlanName.of(option.getPlan())));
         return out;
     }
 
