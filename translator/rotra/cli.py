@@ -229,6 +229,27 @@ def rules_show(rule: str, rules: str, as_json: bool) -> None:
             say(f"{key:>12}  {', '.join(map(str, value)) if isinstance(value, list | tuple) else value}")
 
 
+@rules.command("check")
+@rules_option
+@click.option("--all", "every", is_flag=True, help="Show what is accepted, too, and every pair of rules.")
+@as_json
+@answered
+def rules_check(rules: str, every: bool, as_json: bool) -> int:
+    """Find rules that never apply, repeat or contradict each other, and words that nothing uses."""
+    from rotra.pipeline.rules_check import check_rules, summed_up
+
+    found = check_rules(rules)
+    if as_json:
+        say_json({"findings": [f.as_json() for f in found]})
+    else:
+        for finding, alike in [(f, 1) for f in found] if every else summed_up(found):
+            say(f"{finding.code}: {finding.says}" + (f" (and {alike - 1} more pairs of rules)" if alike > 1 else ""))
+            for line in ((f"in {finding.situation}",) if finding.situation else ()) + ((f"accepted: {finding.accepted}",) if finding.accepted else ()):
+                say(f"    {line}")
+        say(f"{sum(not f.accepted for f in found)} findings, {sum(bool(f.accepted) for f in found)} accepted ones")
+    return UNEXPECTED if any(not f.accepted for f in found) else 0
+
+
 @rules.command("import")
 @click.argument("source", type=click.Path(path_type=Path))
 @click.option("-o", "--output", required=True, type=click.Path(path_type=Path), help="The folder to write.")
