@@ -21,6 +21,7 @@ from rotra.cli import main
 from rotra.diagnostics import Rejected
 from rotra.frontends.rules import Directive, Ontology, Rule, RuleBase, Term, load_rule_base
 from rotra.origins import NOWHERE
+from rotra.pipeline.advise import advise_one
 from rotra.pipeline.rules_check import CODES, Finding, check_rules, find
 from rotra.pipeline.rules_import import import_rules
 
@@ -48,6 +49,16 @@ def test_exit_status(case: str, status: int) -> None:
     answer = CliRunner().invoke(main, ["rules", "check", "--rules", str(CASES / "rules_check" / case), "--json"])
     assert answer.exit_code == status
     assert status == 2 or {"code", "rules", "situation", "accepted"} <= json.loads(answer.output)["findings"][0].keys()
+
+
+def test_advice_marks_what_a_higher_authority_outranks() -> None:
+    def asked(*beliefs: str, intends: tuple[str, ...] = ()) -> dict[str, object]:
+        answer = advise_one(str(CASES / "rules_check" / "accepted"), "standard", beliefs, intends)
+        return {d["action"]: d.get("outranked_by") for d in answer["directives"]}
+
+    assert asked("red", "waved_on") == {"stop": ["wave"], "go": None}
+    assert asked("red", intends=("turn",)) == {"stop": None, "go": None}
+    assert asked("waved_on") == {"go": None}
 
 
 # ---- against all situations of a small world -------------------------------------------------------------------------

@@ -1,7 +1,8 @@
 """What the rules demand in a situation, by the set definition (design, section 3), fast.
 
 In: a RuleBase; a situation.  Out: `Advice`: the directives with the rules behind each, must before should, then by
-action name; the words that the ontology does not know.  Left to others: where situations come from, refusing words.
+action name; the words that the ontology does not know; which directives are outranked by a higher authority that asks for
+the opposite (none is left out for it).  Left to others: where situations come from, refusing words.
 
 A situation is a whole number with one bit for each term; a rule applies iff its bits are all there and none of its
 exceptions is.  Each rule is filed under one of its terms (the rarest), so that only rules that may apply are looked at.
@@ -24,9 +25,18 @@ class Advised(NamedTuple):
     rules: tuple[str, ...]
 
 
+class Outranked(NamedTuple):
+    """A directive of the advice that the rules `by`, of a higher authority, contradict."""
+
+    label: str
+    action: str
+    by: tuple[str, ...]
+
+
 class Advice(NamedTuple):
     directives: tuple[Advised, ...]
     unknown: tuple[str, ...]
+    outranked: tuple[Outranked, ...] = ()
 
 
 # (needed, forbidden, place in the base, id, ranks of its directives)
@@ -36,12 +46,18 @@ _place = itemgetter(2)
 
 @dataclass(frozen=True, slots=True)
 class Adviser:
-    """A compiled rule base.  `directives` stand in the order of advice; an entry names them by rank."""
+    """A compiled rule base.  `directives` stand in the order of advice; an entry names them by rank.
+
+    `authority`: rank of each rule, 0 the highest; `opposed`: the directives that cannot be heeded with one; both are empty
+    where no rule states an authority.
+    """
 
     bits: dict[str, dict[str, int]]
     always: dict[str, tuple[_Entry, ...]]
     filed: dict[str, dict[int, tuple[_Entry, ...]]]
     directives: tuple[tuple[str, str], ...]
+    authority: dict[str, int]
+    opposed: dict[int, tuple[int, ...]]
 
     def advise(self, context: str, beliefs: Iterable[str], intentions: Iterable[str] = ()) -> Advice:
         """The advice of one situation; a word may be a term or an alias."""
@@ -69,7 +85,17 @@ class Adviser:
             for rank in ranks:
                 found[rank] = (*found[rank], name) if rank in found else (name,)
         directives = self.directives
-        return Advice(tuple([Advised(*directives[rank], found[rank]) for rank in sorted(found)]), tuple(unknown))
+        advised = tuple([Advised(*directives[rank], found[rank]) for rank in sorted(found)])
+        return Advice(advised, tuple(unknown), self._outranked(found) if self.opposed else ())
+
+    def _outranked(self, found: dict[int, tuple[str, ...]]) -> tuple[Outranked, ...]:
+        marked = []
+        for rank in sorted(found):
+            best = min(self.authority[name] for name in found[rank])
+            against = [name for other in self.opposed.get(rank, ()) for name in found.get(other, ()) if self.authority[name] < best]
+            if against:
+                marked.append(Outranked(*self.directives[rank], tuple(dict.fromkeys(against))))
+        return tuple(marked)
 
 
 def compile(base: RuleBase) -> Adviser:
@@ -103,4 +129,15 @@ def compile(base: RuleBase) -> Adviser:
         {c: tuple(entries) for c, entries in always.items()},
         {c: {bit: tuple(entries) for bit, entries in table.items()} for c, table in filed.items()},
         tuple(directives),
+        *_authorities(base, directives),
     )
+
+
+def _authorities(base: RuleBase, directives: list[tuple[str, str]]) -> tuple[dict[str, int], dict[int, tuple[int, ...]]]:
+    """The rank of each rule and the directives against each directive; a rule that states none has the lowest."""
+    if not any(rule.authority for rule in base.rules):
+        return {}, {}
+    rank = {name: n for n, name in enumerate(base.ontology.authorities)}
+    opposed = base.ontology.opposed()
+    against = {n: tuple(m for m, (_, other) in enumerate(directives) if other in opposed.get(action, ())) for n, (_, action) in enumerate(directives)}
+    return {r.id: rank.get(r.authority, len(rank) - 1) for r in base.rules}, {n: others for n, others in against.items() if others}

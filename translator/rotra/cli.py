@@ -184,7 +184,8 @@ def advise(context: str, believes: tuple[str, ...], intends: tuple[str, ...], st
         click.echo(f"warning: {word!r} is not a word of this rule base; it is left out", err=True)
     table = Table("label", "action", "rules")
     for d in answer["directives"]:
-        table.add_row(d["label"], d["action"], ", ".join(d["rules"]))
+        outranked = f" (outranked by {', '.join(d['outranked_by'])})" if "outranked_by" in d else ""
+        table.add_row(d["label"], d["action"], ", ".join(d["rules"]) + outranked)
     screen.print(table)
     return 0
 

@@ -69,6 +69,16 @@ class Ontology:
     def terms(self, kind: str) -> Mapping[str, Term]:
         return {"belief": self.beliefs, "intention": self.intentions, "action": self.actions}[kind]
 
+    def opposed(self) -> dict[str, frozenset[str]]:
+        """The actions that cannot be done with each action, whichever of the two names the other."""
+        found: dict[str, set[str]] = {}
+        for term in self.actions.values():
+            for word in term.opposites:
+                other = self.names.get(("action", word), word)
+                found.setdefault(term.name, set()).add(other)
+                found.setdefault(other, set()).add(term.name)
+        return {name: frozenset(others) for name, others in found.items()}
+
 
 @dataclass(frozen=True, slots=True, order=True)
 class Directive:

@@ -40,8 +40,9 @@ def advise_lines(rules: str, source: Path, strict: bool = False) -> Iterator[dic
 
 
 def answer(advice: Advice) -> dict[str, Any]:
+    by = {(o.label, o.action): {"outranked_by": list(o.by)} for o in advice.outranked}
     return {
-        "directives": [{"label": d.label, "action": d.action, "rules": list(d.rules)} for d in advice.directives],
+        "directives": [{"label": d.label, "action": d.action, "rules": list(d.rules)} | by.get((d.label, d.action), {}) for d in advice.directives],
         "unknown": list(advice.unknown),
     }
 

@@ -214,7 +214,7 @@ def _subsumed(alive: list[Rule], repeated: set[str], identical: set[frozenset[st
 
 def _conflicts(base: RuleBase, alive: list[Rule], situations: Situations) -> Iterator[Finding]:
     """Two directives in force that cannot both be heeded."""
-    against = opposites(base)
+    against = base.ontology.opposed()
     giving: dict[str, list[tuple[int, Directive, Rule]]] = defaultdict(list)
     for number, rule in enumerate(alive):
         for directive in rule.directives:
@@ -241,18 +241,6 @@ def _ranked(base: RuleBase, a: Rule, b: Rule) -> str:
         return ""
     strong, weak = (a, b) if first < second else (b, a)
     return f"{strong.id} ({strong.authority}) outranks {weak.id} ({weak.authority or rank[-1]})"
-
-
-def opposites(base: RuleBase) -> dict[str, frozenset[str]]:
-    """The actions that cannot be done with each action, both ways."""
-    found: dict[str, set[str]] = defaultdict(set)
-    for term in base.ontology.actions.values():
-        for word in term.opposites:
-            other = base.ontology.canonical("action", word)
-            if other is not None:
-                found[term.name].add(other)
-                found[other].add(term.name)
-    return {name: frozenset(others) for name, others in found.items()}
 
 
 def _both_labels(base: RuleBase, alive: list[Rule], situations: Situations) -> Iterator[Finding]:
