@@ -32,8 +32,8 @@ def ask_java(command: str, job: Mapping[str, Any], timeout: float, on_line: Call
     if not listing.is_file():
         raise EngineError("the Java side is not built: run `make setup`")
     classes = ":".join((*map(str, places.classes()), listing.read_text().strip()))
-    # from the root, because Jason looks for includes of an absolute path as if its leading slash were not there
-    outcome = run([places.java(), "-XX:+UseSerialGC", "-XX:TieredStopAtLevel=1", "-Xshare:auto", "-cp", classes, "rotra.jason.Main", command], stdin=json.dumps(job), timeout=timeout, on_line=on_line, cwd=Path("/"))
+    options = ["-XX:+UseSerialGC", "-XX:TieredStopAtLevel=1", "-Xshare:auto", f"-Drotra.agents={places.AGENTS}"]
+    outcome = run([places.java(), *options, "-cp", classes, "rotra.jason.Main", command], stdin=json.dumps(job), timeout=timeout, on_line=on_line)
     if not outcome.ok:
         raise EngineError(outcome.why())
     if on_line is not None:
@@ -94,8 +94,15 @@ def included_files(file: Path) -> tuple[Path, ...]:
         path = todo.pop()
         if path not in seen and path.is_file():
             seen[path] = None
-            todo += [(path.parent / name).resolve() for name in _INCLUDE.findall(path.read_text(encoding="utf-8", errors="replace"))]
+            todo += [_included(name, path) for name in _INCLUDE.findall(path.read_text(encoding="utf-8", errors="replace"))]
     return tuple(seen)
+
+
+def _included(name: str, by: Path) -> Path:
+    """Beside the file that includes it, else among the shipped agent files (as rotra.jason.Includes has it)."""
+    beside = (by.parent / name).resolve()
+    shipped = (places.AGENTS / name).resolve()
+    return shipped if not beside.is_file() and shipped.is_file() else beside
 
 
 def _stored(file: Path) -> Path:

@@ -9,6 +9,7 @@ import os
 from pathlib import Path
 
 PROJECT = Path(__file__).resolve().parents[3]
+AGENTS = PROJECT / "agents"
 
 
 def nusmv() -> Path:

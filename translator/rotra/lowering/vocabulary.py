@@ -38,6 +38,8 @@ class Adviser:
     crashed: Expr
     definitions: dict[str, Definition] = field(default_factory=dict)
     directives: dict[Directive, list[str]] = field(default_factory=dict)
+    meanings: dict[str, list[Rule]] = field(default_factory=dict)
+    clashes: dict[tuple[str, str], Expr] = field(default_factory=dict)
 
     def define(self, name: str, expr: Expr, origin: Origin = Origin("")) -> Expr:
         name += self.driver.suffix
@@ -63,20 +65,21 @@ class Adviser:
 
     def contradicts(self, action: str, act: str) -> Expr:
         """Would this act go against that action here?"""
-        name = f"against:{action}:{act}"
-        if name + self.driver.suffix not in self.definitions:
-            asked = Struct("contradicted", (Struct(action), parse_ground(act)))
+        if (action, act) not in self.clashes:
+            if not self.meanings:
+                for rule in self.advice:
+                    if rule.head.name == "contradicted" and len(rule.head.args) == 2:
+                        self.meanings.setdefault(_plain(rule.head.args[0]), []).append(rule)
+            asked = parse_ground(act)
             found = []
-            for rule in self.advice:
-                if rule.head.name == "contradicted" and len(rule.head.args) == 2:
-                    bound = unify(rule.head, asked, {})
-                    if bound is not None:
-                        found += [s.guard for s in solve(rule.body, bound, self.driver.rest)]
+            for rule in self.meanings.get(action, ()):
+                bound = unify(rule.head.args[1], asked, {})
+                if bound is not None:
+                    found += [s.guard for s in solve(rule.body, bound, self.driver.rest)]
             expr = disj(*found)
-            if expr in (TRUE, FALSE):
-                return expr
-            self.define(name, expr, Origin("directives", 0, f"meaning of {action}"))
-        return ref(name + self.driver.suffix)
+            plain = expr in (TRUE, FALSE)
+            self.clashes[action, act] = expr if plain else self.define(f"against:{action}:{act}", expr, Origin("directives", 0, f"meaning of {action}"))
+        return self.clashes[action, act]
 
     def shown(self, action: str) -> bool:
         """Can any act at all contradict this action?"""

@@ -58,8 +58,10 @@ def _model(driver: Driver, law: Law, world: Scenario, title: str) -> dict[str, s
 
 def _project(driver: Driver, law: Law, world: Scenario, title: str) -> dict[str, str]:
     files = included_files(driver.file)
-    root = Path(os.path.commonpath([f.parent for f in files]))
-    sources = {PurePosixPath(f.relative_to(root).as_posix()): f.read_text(encoding="utf-8") for f in files}
+    # what the user wrote keeps its place under the folder that all of it has in common; what ships lies beside that
+    own = [f for f in files if not f.is_relative_to(places.AGENTS)] or list(files)
+    root = Path(os.path.commonpath([f.parent for f in own]))
+    sources = {PurePosixPath(f.relative_to(root if f in own else places.AGENTS).as_posix()): f.read_text(encoding="utf-8") for f in files}
     main = PurePosixPath(driver.file.resolve().relative_to(root).as_posix())
     project = emit_project(sources, main, law.text, run_request(world, STEPS), title)
     return {f"jason/{name}": text for name, text in project.items()}

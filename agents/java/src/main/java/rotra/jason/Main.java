@@ -19,6 +19,7 @@ public final class Main {
         // Standard output carries the answer and nothing else, whatever an agent prints.
         System.setOut(System.err);
         Quiet.please();
+        Includes.use();
         JsonObject job;
         try (JsonReader reader = Json.createReader(System.in)) {
             job = reader.readObject();

@@ -110,7 +110,7 @@ final class ParserExport {
                 if (URL.matcher(name).matches()) {
                     throw new Refused(file.toString(), i + 1, 0, "an include from the net or from a jar is not read: " + name);
                 }
-                Path included = file.toAbsolutePath().getParent().resolve(name);
+                Path included = Includes.resolve(name, file);
                 if (!name.startsWith("$") && Files.isRegularFile(included)) {
                     checkIncludes(included, seen);
                 } else {
