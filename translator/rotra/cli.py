@@ -251,6 +251,30 @@ def rules_check(rules: str, every: bool, as_json: bool) -> int:
     return UNEXPECTED if any(not f.accepted for f in found) else 0
 
 
+@rules.command("diff")
+@click.argument("ours", metavar="A")
+@click.argument("theirs", metavar="B")
+@click.option("--all", "every", is_flag=True, help="Show the rules that are the same, too.")
+@as_json
+@answered
+def rules_diff(ours: str, theirs: str, every: bool, as_json: bool) -> int:
+    """Say rule by rule what A changes, adds and leaves out, compared with B."""
+    from rotra.pipeline.rules_diff import counts, diff_rules
+
+    rows = diff_rules(ours, theirs)
+    if as_json:
+        say_json({"rules": [row.as_json() for row in rows], "counts": counts(rows)})
+    else:
+        for row in rows:
+            if every or row.status != "same":
+                name = row.ours if row.ours in (row.theirs, "") or not row.theirs else f"{row.ours} ({row.theirs})"
+                say(f"{row.status:8}{name or row.theirs}, paragraph {row.paragraph}" + (f": {'; '.join(row.changes)}" if row.changes else ""))
+                for line in ([row.why] if row.why else []) + ([f"NOT EXPLAINED: {'; '.join(row.open)}"] if row.open else []):
+                    say(f"        {line}")
+        say(", ".join(f"{number} {status}" for status, number in counts(rows).items()) + f"; {sum(bool(row.open) for row in rows)} not explained")
+    return UNEXPECTED if any(row.open for row in rows) else 0
+
+
 @rules.command("import")
 @click.argument("source", type=click.Path(path_type=Path))
 @click.option("-o", "--output", required=True, type=click.Path(path_type=Path), help="The folder to write.")
