@@ -55,6 +55,14 @@ def test_refusals_without_a_file(tiny: Path) -> None:
     assert refused(lambda: load_rule_base(tiny)) == "RB111"
 
 
+def test_line_ends_do_not_get_into_comments(tiny: Path) -> None:
+    rules = (tiny / "lights.yaml").read_text()
+    (tiny / "lights.yaml").write_text(rules.replace("id: t1", 'id: "t1\\n"'))
+    assert refused(lambda: load_rule_base(tiny)) == "IO103"
+    (tiny / "lights.yaml").rename(tiny / "lights\nadvised(must, go).yaml")
+    assert refused(lambda: load_rule_base(tiny)) == "IO105"
+
+
 def test_alias_and_exception(tiny: Path) -> None:
     (rule,) = load_rule_base(tiny).rules
     assert rule.beliefs == ("light_red",)

@@ -12,6 +12,8 @@ from dataclasses import replace
 from pathlib import Path
 
 import pytest
+from hypothesis import HealthCheck, given, settings
+from hypothesis import strategies as st
 
 from reference import reference
 from rotra.advice import Adviser, compile
@@ -56,6 +58,28 @@ def test_a_folder_of_others_is_left_alone(tmp_path: Path) -> None:
 def test_a_missing_file_is_said(tmp_path: Path) -> None:
     with pytest.raises(Rejected, match="IO100"):
         import_rules(tmp_path / "absent.pl", tmp_path / "made")
+
+
+@settings(deadline=None, max_examples=100, suppress_health_check=[HealthCheck.function_scoped_fixture])
+@given(st.lists(st.tuples(st.integers(0, 400), st.sampled_from([*"()[],.-'\"\\%/*:|é\x00", "rule(", "X", "9", "\\xD800\\", "''", "'a-b'", " "])), max_size=4))
+def test_no_text_is_a_crash(tmp_path: Path, changes: list[tuple[int, str]]) -> None:
+    text = (CASES / "kept-and-repaired" / "rules.pl").read_text(encoding="utf-8")[150:]
+    for place, piece in changes:
+        text = text[:place] + piece + text[place:]
+    (tmp_path / "rules.pl").write_text(text, encoding="utf-8")
+    try:
+        import_rules(tmp_path / "rules.pl", tmp_path / "made")
+    except Rejected as refusal:
+        assert all(d.code in ("RB121", "RB122") for d in refusal.diagnostics)
+
+
+@pytest.mark.parametrize("text", ["rule(r, c, [" + "(" * 100_000 + "a", "rule(r" + "9" * 5000 + ", c, [], [], [must-stop]).", "rule(r, c, ['\\xD800\\'], [], [must-stop]).", ""])
+def test_odd_files(text: str, tmp_path: Path) -> None:
+    (tmp_path / "rules.pl").write_text(text, encoding="utf-8")
+    try:
+        assert import_rules(tmp_path / "rules.pl", tmp_path / "made").rules == 1
+    except Rejected as refusal:
+        assert {d.code for d in refusal.diagnostics} == {"RB121"}
 
 
 @pytest.fixture(scope="module")

@@ -65,6 +65,9 @@ class PublishedRules:
 _RULES = {5, 7}
 DETAILS = {"rule_base": 1, "rule_detail": 3, "term_detail": 4, "accepted": 4}
 
+# More opening brackets than any fact needs.
+_BRACKETS = 200
+
 # A list or an atom of one fact, with its line.
 _Atom = tuple[str, int]
 _Term = _Atom | list[_Atom]
@@ -183,6 +186,9 @@ class _Clause:
         return None
 
     def _tree(self) -> Tree[Token] | None:
+        if sum(t.type == "LPAR" for t in self.tokens) > _BRACKETS:
+            self._fault(self.tokens[0].line or 0, f"{_start(self.tokens)}: more than {_BRACKETS} brackets", "write label-action without them")
+            return None
         parse = _parser().parse_interactive("", start="fact")
         try:
             for token in self.tokens[:-1]:
@@ -252,6 +258,8 @@ def _unquoted(token: str) -> str | None:
     if "\\" in re.sub(pattern, "", inside):
         return None
     try:
-        return re.sub(pattern, escaped, inside)
-    except (ValueError, OverflowError):
+        text = re.sub(pattern, escaped, inside)
+        text.encode()
+    except (ValueError, OverflowError):  # a number that is no character, or half of one
         return None
+    return text

@@ -390,6 +390,10 @@ def _load_rules(folder: Path, ontology: Ontology, findings: list[Diagnostic], ac
     for file in sorted([*folder.glob("*.yaml"), *folder.glob("*.yml")]):
         if file.name in BESIDE_THE_RULES:
             continue
+        # Names of files stand in the comments of what we write, which a line end would end.
+        if not str(file).isprintable():
+            findings.append(problem("IO105", Origin(ascii(str(file))), "the name of a file of rules holds a line end or the like", "rename the file"))
+            continue
         try:
             root = load_yaml(file)
         except Rejected as refusal:

@@ -203,7 +203,7 @@ def _rule(rule: PublishedRule, identity: str, names: _Names, said: dict[str, str
     found: dict[str, Any] = {
         "id": identity,
         "published_name": said.get("published_name", "" if ours and identity == rule.name else rule.name),
-        "paragraph": int(paragraph) if paragraph.isdecimal() else paragraph,
+        "paragraph": int(paragraph) if re.fullmatch("[0-9]{1,9}", paragraph) else paragraph,
         "says": said.get("says") or _sentence(rule),
         "context": names.words["context", rule.context],
         "beliefs": of("belief", rule.beliefs),
