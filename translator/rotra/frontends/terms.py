@@ -200,6 +200,17 @@ def unify(a: Term, b: Term, bound: Substitution) -> dict[str, Term] | None:
     return result
 
 
+def apart(a: Struct, b: Struct) -> bool:
+    """Do two atoms or numbers in the same place differ, so that the two can never be made equal?  Quick, and not the whole story."""
+    for x, y in zip(a.args, b.args, strict=False):
+        if type(x) is type(y):
+            if x != y and not (isinstance(x, Var | Items | Sum) or (isinstance(x, Struct) and x.args and isinstance(y, Struct) and y.args)):
+                return True
+        elif isinstance(x, Struct | Text) and isinstance(y, Struct | Text | int | float) or isinstance(y, Struct | Text) and isinstance(x, int | float):
+            return True
+    return False
+
+
 def order(term: Term) -> tuple[object, ...]:
     """A sort key: numbers before atoms before structures, as percepts are ordered."""
     match term:

@@ -16,7 +16,7 @@ from rotra.diagnostics import Rejected, problem
 from rotra.frontends.agent import Agent, Plan, Rule, Step, steps_of
 from rotra.frontends.terms import Struct, is_ground, order, parse_ground, show, unify
 from rotra.lowering.deliberation import DONE, Control, Event, Frame, Leaf, Machine, Moment, Pending, Stack, advance, step_key
-from rotra.lowering.query import Indicator, Knowledge, Mind, indicator
+from rotra.lowering.query import Indicator, Knowledge, Mind, changing, indicator
 from rotra.origins import NOWHERE, Origin
 from rotra.system.expr import FALSE, TRUE, Expr, Value, among, choose, conj, const, disj, eq, negate, ref, var
 from rotra.system.solver import Satisfiability
@@ -160,7 +160,8 @@ class _Build:
         for percept in senses.percepts:
             percepts.setdefault(indicator(percept), []).append(percept)
         dynamic = _dynamic(agent)
-        self.knowledge = Knowledge({k: tuple(v) for k, v in rules.items()}, {k: tuple(v) for k, v in percepts.items()}, dynamic, self.percept)
+        by_functor = {k: tuple(v) for k, v in rules.items()}
+        self.knowledge = Knowledge(by_functor, {k: tuple(v) for k, v in percepts.items()}, dynamic, self.percept, changing(by_functor, dynamic))
         self.machine = Machine(agent, self.knowledge, self.solver, lambda act: legal_act(act, senses.top_speed), self.name, self.select)
         self.current = START
 

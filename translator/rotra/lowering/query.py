@@ -16,7 +16,7 @@ from itertools import count
 
 from rotra.diagnostics import Rejected, problem
 from rotra.frontends.agent import Formula, Rule
-from rotra.frontends.terms import Items, Struct, Substitution, Sum, Term, Var, is_ground, order, rename, resolve, show, unify, variables, walk_to
+from rotra.frontends.terms import Items, Struct, Substitution, Sum, Term, Text, Var, apart, is_ground, order, rename, resolve, show, unify, variables, walk_to
 from rotra.origins import Origin
 from rotra.system.expr import FALSE, TRUE, Expr, conj, disj, negate
 
@@ -37,12 +37,19 @@ class Solution:
 
 @dataclass(frozen=True, slots=True)
 class Knowledge:
-    """What never changes: the rules and initial facts by functor, the percepts that can occur, the functors that change."""
+    """What never changes: the rules and initial facts by functor, the percepts that can occur, the functors that change.
+
+    `changing`: the answers of these depend on more than percepts.  `answers` keeps what was found once, for the next mind.
+    """
 
     rules: Mapping[Indicator, tuple[Rule, ...]]
     percepts: Mapping[Indicator, tuple[Struct, ...]]
     dynamic: frozenset[Indicator]
     percept: Callable[[Struct], Expr]
+    changing: frozenset[Indicator]
+    answers: dict[object, tuple[Solution, ...]] = field(default_factory=dict)
+    index: dict[tuple[Indicator, int], dict[Term | None, list[Rule]]] = field(default_factory=dict)
+    fresh: Iterator[int] = field(default_factory=count)
 
 
 @dataclass(slots=True)
@@ -50,7 +57,7 @@ class Mind:
     """The symbolic mind at one moment: own beliefs under their conditions, and the goals that stand.
 
     `goals(pattern, desired)` yields (goal literal, condition); `name(literal, expr, origin)` may give a shared name to the
-    condition of a ground query.  `memo` belongs to this moment alone.
+    condition of a ground query.  `memo` belongs to this moment alone, as does `state`: all that an answer may depend on.
     """
 
     knowledge: Knowledge
@@ -59,7 +66,7 @@ class Mind:
     name: Callable[[Struct, Expr, Origin], Expr]
     at: Origin
     memo: dict[Struct, Expr] = field(default_factory=dict)
-    fresh: Iterator[int] = field(default_factory=count)
+    state: object = None
 
 
 def solve(formula: Formula, bound: Substitution, mind: Mind, depth: int = 0) -> Iterator[Solution]:
@@ -100,12 +107,50 @@ def _literal(literal: Term, bound: Substitution, mind: Mind, depth: int) -> Iter
     rules = mind.knowledge.rules.get(indicator(asked), ())
     if is_ground(asked) and any(r.body.op != "true" for r in rules):
         if asked not in mind.memo:
-            guard = disj(*(s.guard for s in _candidates(asked, {}, mind, depth)))
+            guard = disj(*(s.guard for s in _answers(asked, mind, depth)))
             mind.memo[asked] = mind.name(asked, guard, rules[0].origin)
         if mind.memo[asked] is not FALSE:
             yield Solution(bound, mind.memo[asked])
         return
-    yield from _candidates(asked, bound, mind, depth)
+    for found in _answers(asked, mind, depth):
+        yield Solution({**bound, **found.bound}, found.guard, found.unordered)
+
+
+def _answers(asked: Struct, mind: Mind, depth: int) -> tuple[Solution, ...]:
+    """All solutions of a query in which every known variable is replaced; each binds the others and no more."""
+    knowledge = mind.knowledge
+    steady = indicator(asked) not in knowledge.changing
+    if not steady and mind.state is None:
+        mind.state = (frozenset(mind.beliefs.items()), tuple(mind.goals(False)), tuple(mind.goals(True)))
+    key = (asked, None if steady else mind.state)
+    if key not in knowledge.answers:
+        knowledge.answers[key] = tuple(_candidates(asked, {}, mind, depth))
+    return knowledge.answers[key]
+
+
+def changing(rules: Mapping[Indicator, tuple[Rule, ...]], dynamic: frozenset[Indicator]) -> frozenset[Indicator]:
+    """The functors in whose answers a belief that changes or a goal has a part."""
+    needs = {key: {n for r in group for n in _needs(r.body)} for key, group in rules.items()}
+    found = {*dynamic, _MIND}
+    while True:
+        more = {key for key, needed in needs.items() if needed & found} - found
+        if not more:
+            return frozenset(found)
+        found |= more
+
+
+# stands for what is asked of the mind itself, by `.intend` and the like
+_MIND: Indicator = (".mind", 0)
+
+
+def _needs(formula: Formula) -> Iterator[Indicator]:
+    if formula.op == "internal":
+        yield _MIND
+    for part in formula.args:
+        if isinstance(part, Formula):
+            yield from _needs(part)
+        elif formula.op == "lit":
+            yield indicator(part) if isinstance(part, Struct) else _MIND
 
 
 def _candidates(asked: Struct, bound: Substitution, mind: Mind, depth: int) -> Iterator[Solution]:
@@ -117,17 +162,19 @@ def _candidates(asked: Struct, bound: Substitution, mind: Mind, depth: int) -> I
             if extended is not None:
                 yield Solution(extended, guard, frozenset([belief]) if len(held) > 1 and not is_ground(asked) else frozenset())
     for percept in knowledge.percepts.get(key, ()):
-        extended = unify(asked, percept, bound)
+        extended = None if apart(asked, percept) else unify(asked, percept, bound)
         if extended is not None:
             yield Solution(extended, knowledge.percept(percept))
-    for rule in knowledge.rules.get(key, ()):
+    for rule in _fitting(asked, knowledge):
+        if apart(asked, rule.head):
+            continue
         if rule.body.op == "true":
             if key not in knowledge.dynamic:
                 extended = unify(asked, rule.head, bound)
                 if extended is not None:
                     yield Solution(extended, TRUE)
             continue
-        suffix = f"~{next(mind.fresh)}"
+        suffix = f"~{next(knowledge.fresh)}"
         inside = unify(rename(rule.head, suffix), asked, {})
         if inside is None:
             continue
@@ -139,6 +186,41 @@ def _candidates(asked: Struct, bound: Substitution, mind: Mind, depth: int) -> I
                 if not isinstance(value, Var):
                     extended[name] = value
             yield Solution(extended, found.guard, found.unordered)
+
+
+def _fitting(asked: Struct, knowledge: Knowledge) -> Iterable[Rule]:
+    """The rules that may answer, in order: by the argument that leaves the fewest."""
+    key = indicator(asked)
+    fewest: Iterable[Rule] = knowledge.rules.get(key, ())
+    count = len(knowledge.rules.get(key, ()))
+    for position, argument in enumerate(asked.args):
+        if not _plain(argument):
+            continue
+        if (key, position) not in knowledge.index:
+            knowledge.index[key, position] = _by_argument(knowledge.rules.get(key, ()), position)
+        values = knowledge.index[key, position]
+        found = values.get(argument, values[None])
+        if len(found) < count:
+            fewest, count = found, len(found)
+    return fewest
+
+
+def _by_argument(rules: Iterable[Rule], position: int) -> dict[Term | None, list[Rule]]:
+    """Value -> the rules whose head may have it there; under None those that may have any."""
+    values: dict[Term | None, list[Rule]] = {None: []}
+    for rule in rules:
+        argument = rule.head.args[position]
+        if not _plain(argument):
+            for found in values.values():
+                found.append(rule)
+        else:
+            values.setdefault(argument, list(values[None])).append(rule)
+    return values
+
+
+def _plain(term: Term) -> bool:
+    """Is it an atom, a number or a text, equal to nothing but itself?"""
+    return isinstance(term, int | Text) or (isinstance(term, Struct) and not term.args)
 
 
 def _renamed(formula: Formula, suffix: str) -> Formula:
