@@ -230,6 +230,25 @@ def rules_show(rule: str, rules: str, as_json: bool) -> None:
             say(f"{key:>12}  {', '.join(map(str, value)) if isinstance(value, list | tuple) else value}")
 
 
+@rules.command("coverage")
+@rules_option
+@as_json
+@answered
+def rules_coverage(rules: str, as_json: bool) -> int:
+    """Say of every paragraph which rules encode it, or why none does."""
+    from rotra.pipeline.rules_coverage import MISSING, coverage
+
+    found = coverage(rules)
+    if as_json:
+        say_json({"paragraphs": [p.as_json() for p in found]})
+    else:
+        table = Table("paragraph", "disposition", "rules, or why there are none")
+        for p in found:
+            table.add_row(p.paragraph, p.disposition.replace("_", " "), ", ".join(p.rules) or p.reason)
+        screen.print(table)
+    return UNEXPECTED if any(p.disposition == MISSING for p in found) else 0
+
+
 @rules.command("check")
 @rules_option
 @click.option("--all", "every", is_flag=True, help="Show what is accepted, too, and every pair of rules.")

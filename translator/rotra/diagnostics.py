@@ -55,6 +55,7 @@ CODES: dict[str, str] = {
     "RB124": "a rule name that stands twice in an import",
     "RB125": "an overlay or a detail speaks of what the import does not hold",
     "RB126": "an accepted finding that is not found",
+    "RB130": "a paragraph disposed of twice",
     "AG100": "Jason's parser refuses the agent",
     "AG101": "no such act",
     "AG102": "internal action not translated",
