@@ -90,7 +90,8 @@ def check_model(nusmv: Path, model: Path, checks: Sequence[Check], timeout: floa
 
 
 def _script(checks: Sequence[Check]) -> str:
-    lines = ["set partition_method Iwls95CP", "unset traces_show_defines", "unset traces_show_defines_with_next", "go"]
+    # the order of the declarations, one variable after the other: many times faster here than bits of all numbers interleaved
+    lines = ["set partition_method Iwls95CP", "set vars_order_type inputs_before", "unset traces_show_defines", "unset traces_show_defines_with_next", "go"]
 
     def block(name: str, *commands: str) -> None:
         lines.extend([f'echo "@@begin {name}"', *commands, f'echo "@@end {name}"'])

@@ -322,18 +322,7 @@ class _World:
         origin = s.driver.origin
         add("x", whole[0], (c[0] for c in starts), where[0][0], origin)
         add("y", whole[1], (c[1] for c in starts), where[0][1], origin)
-        if self.turns:
-            turning = {h: disj(*(conj(self.done(a), self.facing(old)) for a in self.acts if a.name == "turn" for old in HEADINGS if turned(old, a.args[0].name) == h)) for h in HEADINGS}  # type: ignore[union-attr]
-            heading = choose((var("crashed"), var("heading")), *((turning[h], const(h)) for h in HEADINGS), (TRUE, var("heading")))
-            add("heading", HEADINGS, (s.driver.heading,), heading, origin)
-        else:
-            heading = const(s.driver.heading)
-            self.define("heading", const(s.driver.heading), origin)
-        count: Expr = const(0)
-        for k, goes in enumerate(covered, start=1):
-            count = choose((goes, const(k)), (TRUE, count))
-        add("speed", range(s.top_speed + 1), (0,), choose((var("crashed"), const(0)), (TRUE, count)), origin)
-        add("crashed", (False, True), (False,), crashed[0], origin)
+        # NuSMV reads the declarations as the order of its BDDs: places side by side, what depends on all of them after them
         for i, car in enumerate(s.traffic, start=1):
             for axis, name in enumerate((f"car_{car.name}_x", f"car_{car.name}_y")):
                 place = self.place(car)[axis]
@@ -346,6 +335,18 @@ class _World:
                 self.variables.append(Variable(f"car_{car.name}_speed", tuple(car.speed.all), tuple(car.speed.all), None, car.origin, frozen=True))
             if any(car.hesitates.all):
                 add(f"hesitates_{car.name}", (False, True), (False, True), None, car.origin)
+        if self.turns:
+            turning = {h: disj(*(conj(self.done(a), self.facing(old)) for a in self.acts if a.name == "turn" for old in HEADINGS if turned(old, a.args[0].name) == h)) for h in HEADINGS}  # type: ignore[union-attr]
+            heading = choose((var("crashed"), var("heading")), *((turning[h], const(h)) for h in HEADINGS), (TRUE, var("heading")))
+            add("heading", HEADINGS, (s.driver.heading,), heading, origin)
+        else:
+            heading = const(s.driver.heading)
+            self.define("heading", const(s.driver.heading), origin)
+        count: Expr = const(0)
+        for k, goes in enumerate(covered, start=1):
+            count = choose((goes, const(k)), (TRUE, count))
+        add("speed", range(s.top_speed + 1), (0,), choose((var("crashed"), const(0)), (TRUE, count)), origin)
+        add("crashed", (False, True), (False,), crashed[0], origin)
         self.reach_goal(where, crashed, heading)
 
     def reach_goal(self, where: list[tuple[Expr, Expr]], crashed: list[Expr], heading: Expr) -> None:
