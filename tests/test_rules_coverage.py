@@ -60,7 +60,8 @@ def test_refusals(case: str, folder: Path, expected: Callable[[Path, str], None]
 
 
 @pytest.mark.parametrize(
-    ("text", "names"), [("176", ["176"]), ("113, 226", ["113", "226"]), ("H1-H3, 7", ["H1", "H2", "H3", "7"]), ("8-8", ["8"]), ("5-4", []), ("240a", ["240a"])]
+    ("text", "names"),
+    [("176", ["176"]), ("113, 226", ["113", "226"]), ("H1-H3, 7", ["H1", "H2", "H3", "7"]), ("8-8", ["8"]), ("5-4", []), ("240a", ["240a"])],
 )
 def test_paragraphs_that_a_text_names(text: str, names: list[str]) -> None:
     assert list(paragraphs(text)) == names

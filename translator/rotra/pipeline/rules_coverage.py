@@ -78,7 +78,9 @@ def _runs(found: Sequence[Paragraph]) -> Iterator[tuple[Paragraph, Paragraph]]:
     """First and last of neighbours that are disposed of together."""
     start = 0
     for at in range(1, len(found) + 1):
-        together = at < len(found) and found[at].reason and (found[at].disposition, found[at].reason) == (found[start].disposition, found[start].reason)
+        together = (
+            at < len(found) and found[at].reason and (found[at].disposition, found[at].reason) == (found[start].disposition, found[start].reason)
+        )
         if not together:
             yield found[start], found[at - 1]
             start = at
@@ -129,7 +131,9 @@ def _shape(root: Node) -> Iterator[Diagnostic]:
         if missing:
             yield problem("IO103", node.origin(), f"{' and '.join(missing)} is missing here", hint)
         elif node.at("disposition").value not in DISPOSITIONS:
-            yield problem("IO103", node.origin(), f"{node.at('disposition').value!r} is no disposition", f"dispositions are {', '.join(DISPOSITIONS)}")
+            yield problem(
+                "IO103", node.origin(), f"{node.at('disposition').value!r} is no disposition", f"dispositions are {', '.join(DISPOSITIONS)}"
+            )
 
 
 def _is_text(node: Node | None) -> bool:
