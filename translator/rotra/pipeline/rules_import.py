@@ -15,6 +15,7 @@ import difflib
 import re
 import shutil
 import tempfile
+from collections import Counter
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass, field
 from pathlib import Path
@@ -143,24 +144,24 @@ def _ids(rules: tuple[PublishedRule, ...], remarks: list[Diagnostic]) -> tuple[s
     """The name of each rule; r135#2 for the second of a name, and one like it for a name that cannot be an id."""
     fits = re.compile(r"[A-Za-z][A-Za-z0-9_]*(#[0-9]+)?")
     taken = {r.name for r in rules if fits.fullmatch(r.name)}
-    seen: dict[str, int] = {}
+    stems: dict[str, str] = {}
+    seen = Counter[str]()
     ids = []
     for rule in rules:
-        first = seen.get(rule.name, 0) == 0
-        seen[rule.name] = seen.get(rule.name, 0) + 1
-        if first and fits.fullmatch(rule.name):
-            ids.append(rule.name)
-            continue
-        if first:
-            like = re.sub(r"[^A-Za-z0-9_]+", "_", rule.name).strip("_")
-            found = _free(like if re.match("[A-Za-z]", like) else f"r_{like}".rstrip("_"), taken)
-            remarks.append(problem("RB123", rule.origin, f"the rule {rule.name!r} becomes {found}", "its published_name keeps the name"))
-        else:
-            stem = ids[next(i for i, r in enumerate(rules) if r.name == rule.name)].split("#")[0]
+        seen[rule.name] += 1
+        if seen[rule.name] > 1:
+            stem = stems[rule.name]
             number = seen[rule.name]
             while (found := f"{stem}#{number}") in taken:
                 number += 1
             remarks.append(problem("RB124", rule.origin, f"the name {rule.name} stands a second time; this rule becomes {found}", "give each rule a name of its own"))
+        elif fits.fullmatch(rule.name):
+            found = rule.name
+        else:
+            like = re.sub(r"[^A-Za-z0-9_]+", "_", rule.name).strip("_")
+            found = _free(like if re.match("[A-Za-z]", like) else f"r_{like}".rstrip("_"), taken)
+            remarks.append(problem("RB123", rule.origin, f"the rule {rule.name!r} becomes {found}", "its published_name keeps the name"))
+        stems.setdefault(rule.name, found.split("#")[0])
         taken.add(found)
         ids.append(found)
     return tuple(ids)
