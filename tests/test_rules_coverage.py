@@ -109,3 +109,8 @@ def test_no_term_is_two_kinds_or_the_word_for_what_is_not() -> None:
     beliefs, intentions, actions = ontology.beliefs, ontology.intentions, ontology.actions
     assert not (set(beliefs) & set(intentions) | set(beliefs) & set(actions) | set(intentions) & set(actions))
     assert [w for w in (*beliefs, *intentions) if w.startswith("not_") or "_not_" in w or w != w.lower()] == []
+
+
+def test_every_action_says_what_it_means_in_the_grid() -> None:
+    base = load_rule_base("uk")
+    assert set(base.ontology.actions) == {m.action for m in base.meanings}
