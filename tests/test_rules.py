@@ -55,6 +55,15 @@ def test_refusals_without_a_file(tiny: Path) -> None:
     assert refused(lambda: load_rule_base(tiny)) == "RB111"
 
 
+def test_a_base_is_read_again_when_a_file_changes(tiny: Path) -> None:
+    first = load_rule_base(tiny)
+    assert load_rule_base(tiny) is first
+    (tiny / "lights.yaml").write_text((tiny / "lights.yaml").read_text().replace("id: t1", "id: t2"))
+    assert [r.id for r in load_rule_base(tiny).rules] == ["t2"]
+    (tiny / "lights.yaml").write_text("")
+    assert refused(lambda: load_rule_base(tiny)) == "IO103"
+
+
 def test_line_ends_do_not_get_into_comments(tiny: Path) -> None:
     rules = (tiny / "lights.yaml").read_text()
     (tiny / "lights.yaml").write_text(rules.replace("id: t1", 'id: "t1\\n"'))

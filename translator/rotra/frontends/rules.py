@@ -12,11 +12,12 @@ text (emitters/agentspeak.py), conflicts between rules (rules check).
 from __future__ import annotations
 
 import difflib
+import hashlib
 import json
 import re
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, field
-from functools import cache
+from functools import cache, lru_cache
 from pathlib import Path
 from typing import Any
 
@@ -165,8 +166,29 @@ def shipped_rule_bases() -> tuple[str, ...]:
 
 
 def load_rule_base(given: str | Path) -> RuleBase:
-    """The rule base of a shipped name or of a folder of the user's own.  Errors: RB100 and all of this module's."""
+    """The rule base of a shipped name or of a folder of the user's own.  Errors: RB100 and all of this module's.
+
+    It is read once for what its files hold: asked again, a process gets the same value, for a rule base never changes.
+    """
     folder = _folder(given)
+    return _read_rule_base(folder, _contents(folder))
+
+
+def _contents(folder: Path) -> tuple[tuple[str, str], ...]:
+    """The names of the files and what stands in them, in short; what cannot be read is said when it is read."""
+
+    def short(file: Path) -> str:
+        try:
+            return hashlib.sha256(file.read_bytes()).hexdigest()
+        except OSError:
+            return ""
+
+    return tuple((f.name, short(f)) for f in sorted([*folder.glob("*.yaml"), *folder.glob("*.yml")]))
+
+
+@lru_cache(maxsize=16)
+def _read_rule_base(folder: Path, contents: tuple[tuple[str, str], ...]) -> RuleBase:
+    """The rule base of a folder that holds `contents`."""
     findings: list[Diagnostic] = []
     ontology = _load_ontology(folder / "ontology.yaml", findings)
     if ontology is None:
@@ -190,6 +212,7 @@ def load_rule_base(given: str | Path) -> RuleBase:
     return RuleBase(ontology[0], shown_path(str(folder)), ontology[1], rules, meanings, tuple(accept))
 
 
+@cache
 def shown_path(file: str) -> str:
     """A path inside the project without the place where the project lies; any other as it was given."""
     path = Path(file)
