@@ -102,8 +102,8 @@ def load_properties(given: str | Path | None, base: RuleBase) -> tuple[Property,
             found += shape
             continue
         known = {r.id for r in base.rules}
-        # a catalogue written for another jurisdiction cites nothing of this one
-        ours = any(str(c.value) in known for node in root for c in node.get("cites") or ())
+        # the catalogue that ships is written for the rules that ship: another base may have other ones, or lack some
+        ours = file not in shipped or Path(base.folder).resolve() == PROJECT / "rules" / "uk"
         for node in root:
             read = _property(node, base, known if ours else None, found)
             if any(p.id == read.id for p in loaded):
