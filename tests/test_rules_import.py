@@ -7,6 +7,7 @@ and, where the import is taken, what is written.
 from __future__ import annotations
 
 import json
+import shutil
 from collections.abc import Callable
 from dataclasses import replace
 from pathlib import Path
@@ -135,3 +136,25 @@ def test_the_paper_s_own_spelling_is_answered_by_our_base() -> None:
     ours = load_rule_base("uk")
     said = answers(compile(ours), {"context": "standard", "beliefs": ["fog_lights_on", "visibility_clear", "driving", "headlights_on"], "intentions": []})
     assert f"must-{ours.ontology.canonical('action', 'fog_lights_off')}" in said
+
+
+def test_words_may_take_the_names_of_another_base(tmp_path: Path) -> None:
+    source = tmp_path / "rules.pl"
+    source.write_text("rule(r1, c, [lightRed, amber], [overtake], [must-stop]).\nrule(r2, c, [red, lightRed], [lightRed], [must-stop, must-halt]).\n", encoding="utf-8")
+    ours = tmp_path / "ours"
+    shutil.copytree(CASES / ".." / "rules" / "base", ours)
+    ontology = (ours / "ontology.yaml").read_text(encoding="utf-8")
+    (ours / "ontology.yaml").write_text(ontology.replace("aliases: [lightRed]", "aliases: [lightRed, red]").replace("{means: Stop.,", "{means: Stop., aliases: [halt],"), encoding="utf-8")
+    import_rules(source, tmp_path / "made", None, str(ours))
+    base = load_rule_base(tmp_path / "made")
+    assert [(r.beliefs, r.intentions, tuple(map(str, r.directives))) for r in base.rules] == [
+        (("light_red", "amber"), ("overtake",), ("must stop",)),
+        (("light_red",), ("lightRed",), ("must stop",)),
+    ]
+    assert base.ontology.beliefs["light_red"].aliases == ("lightRed", "red")
+
+
+def test_our_drivers_understand_an_import_with_our_words(tmp_path: Path) -> None:
+    import_rules(reference("published_rules.pl"), tmp_path / "made", OVERLAY, "uk")
+    adviser = compile(load_rule_base(tmp_path / "made"))
+    assert ("must", "stop_at_white_line", ("r175a",)) in adviser.advise("standard", ["light_red"], ["approaching_traffic_light"]).directives

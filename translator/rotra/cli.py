@@ -298,13 +298,14 @@ def rules_diff(ours: str, theirs: str, every: bool, as_json: bool) -> int:
 @click.argument("source", type=click.Path(path_type=Path))
 @click.option("-o", "--output", required=True, type=click.Path(path_type=Path), help="The folder to write.")
 @click.option("--overlay", type=click.Path(path_type=Path), help="Meanings, aliases, exclusions and opposites that Prolog does not say.")
+@click.option("--words", default="", help="A rule base whose names its words shall have, so that our drivers know them.")
 @as_json
 @answered
-def rules_import(source: Path, output: Path, overlay: Path | None, as_json: bool) -> None:
+def rules_import(source: Path, output: Path, overlay: Path | None, words: str, as_json: bool) -> None:
     """Make a rule base of the Prolog facts in SOURCE."""
     from rotra.pipeline.rules_import import import_rules
 
-    made = import_rules(source, output, overlay)
+    made = import_rules(source, output, overlay, words)
     if as_json:
         say_json({"files": [str(p) for p in made.files], "rules": made.rules, "remarks": [d.as_json() for d in made.remarks]})
         return

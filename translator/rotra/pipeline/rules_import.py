@@ -4,7 +4,7 @@
     rule(r135, standard, [b], [], [must-y]).    ->    - {id: r135#2, published_name: r135, paragraph: 135, beliefs: [b], ...}
 
 In: the file; an overlay of ours with what the Prolog form does not say (meanings, aliases, exclusions, opposites, what an
-action means in the grid world), in the file's words; a folder.  Out: the folder's files and a remark for each thing that
+action means in the grid world), in the file's words; a base whose names its words shall have; a folder.  Out: the folder's files and a remark for each thing that
 was passed over or repaired.  Errors: RB107, RB125, IO104 and all of the readers.
 Left to others: reading Prolog (frontends/prolog_rules.py), what is wrong with the rules (rules_check.py).
 """
@@ -17,7 +17,7 @@ import shutil
 import tempfile
 from collections import Counter
 from collections.abc import Callable, Iterable
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Any
 
@@ -25,7 +25,7 @@ import yaml
 
 from rotra.diagnostics import Diagnostic, Rejected, problem
 from rotra.frontends.prolog_rules import PublishedDetail, PublishedRule, PublishedRules, read_prolog_rules
-from rotra.frontends.rules import KINDS, check_shape, fit_name, load_rule_base, read_meanings
+from rotra.frontends.rules import KINDS, Ontology, check_shape, fit_name, load_rule_base, read_meanings
 from rotra.frontends.yamlfile import Node, load_yaml
 from rotra.origins import Origin
 
@@ -46,12 +46,18 @@ class Imported:
     remarks: tuple[Diagnostic, ...]
 
 
-def import_rules(source: Path, folder: Path, overlay: Path | None = None) -> Imported:
-    """Write the rule base; a folder that holds anything but an earlier import is left alone."""
+def import_rules(source: Path, folder: Path, overlay: Path | None = None, words: str = "") -> Imported:
+    """Write the rule base; a folder that holds anything but an earlier import is left alone.
+
+    With `words`, a rule base, a word that this base knows gets its name there, so that what speaks its words understands
+    the import, too; words that are one word there become one.  Without, every word stays itself.
+    """
     _refuse_foreign(folder)
     published = read_prolog_rules(source)
     added = _load_overlay(overlay)
     names = _name(published)
+    if words:
+        names = _renamed(names, load_rule_base(words).ontology)
     remarks = [*published.remarks, *names.remarks]
     faults: list[Diagnostic] = []
     sections = _rules(published, names, faults)
@@ -96,6 +102,12 @@ def _name(published: PublishedRules) -> _Names:
                 remarks.append(problem("RB123", places[kind, word], f"the {kind} {word!r} becomes {name}", _STILL if kind in KINDS else ""))
     ids = _ids(published.rules, remarks)
     return _Names(words, ids, tuple(remarks))
+
+
+def _renamed(names: _Names, known: Ontology) -> _Names:
+    """The names with those of `known` for the words that it knows."""
+    found = {(kind, word): known.canonical(kind, word) if kind in KINDS else None for kind, word in names.words}
+    return replace(names, words={at: found[at] or name for at, name in names.words.items()})
 
 
 def _action(name: str) -> bool:
@@ -195,7 +207,7 @@ def _rules(published: PublishedRules, names: _Names, faults: list[Diagnostic]) -
 
 def _rule(rule: PublishedRule, identity: str, names: _Names, said: dict[str, str], legal: list[str], ours: bool) -> dict[str, Any]:
     def of(kind: str, words: Iterable[str]) -> list[str]:
-        return [names.words[kind, w] for w in words]
+        return list(dict.fromkeys(names.words[kind, w] for w in words))
 
     number = re.search(r"\d+", rule.name)
     paragraph = said.get("paragraph", number.group() if number else rule.name or identity)
@@ -210,7 +222,7 @@ def _rule(rule: PublishedRule, identity: str, names: _Names, said: dict[str, str
         "beliefs": of("belief", rule.beliefs),
         "intentions": of("intention", rule.intentions),
         "unless": unless,
-        "directives": [f"{names.words['label', label]} {names.words['action', action]}" for label, action in rule.directives],
+        "directives": list(dict.fromkeys(f"{names.words['label', label]} {names.words['action', action]}" for label, action in rule.directives)),
         "legal": legal,
         "authority": said.get("authority", ""),
         "note": said.get("note", ""),
@@ -253,7 +265,7 @@ class _Draft:
 
     def add(self, key: str, words: Iterable[str]) -> None:
         kept = self.lists.setdefault(key, [])
-        kept += [w for w in words if w not in kept]
+        kept += [w for w in dict.fromkeys(words) if w not in kept]
 
     def plain(self) -> dict[str, Any]:
         return {"means": self.means} | {key: words for key, words in self.lists.items() if words}
@@ -355,10 +367,10 @@ class _Overlay:
                     if key == "means":
                         drafts[kind, found].means = str(value.value)
                     elif key == "aliases":
-                        drafts[kind, found].add(key, [str(v.value) for v in value])
+                        drafts[kind, found].add(key, [str(v.value) for v in value if v.value != found])
                     else:
                         others = [self._resolve(kind, str(v.value), v, names, faults) for v in value]
-                        drafts[kind, found].add(key, [o for o in others if o is not None])
+                        drafts[kind, found].add(key, [o for o in others if o is not None and o != found])
 
     def _resolve(self, kind: str, word: str, node: Node, names: _Names, faults: list[Diagnostic]) -> str | None:
         found = names.words.get((kind, word))
