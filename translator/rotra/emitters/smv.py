@@ -135,8 +135,8 @@ def _unknown(value: str) -> str:
     raise KeyError(f"constant {value!r} is not in the model")
 
 
-def emit_smv(system: System, title: str, specifications: Iterable[Specification] = (), names: Names | None = None, justice: Iterable[str] = ()) -> Smv:
-    """The whole model as text.  `justice`: formulas that hold again and again on every path that counts."""
+def emit_smv(system: System, title: str, specifications: Iterable[Specification] = (), names: Names | None = None) -> Smv:
+    """The whole model as text."""
     names = names or name_everything(system)
     parts = [p.name.replace("@", "_") for p in system.parts]
     lines = [f"-- {_comment(title)}", "-- Written by rotra translate; names map back through names.json.", "", "MODULE main", "VAR"]
@@ -144,7 +144,6 @@ def emit_smv(system: System, title: str, specifications: Iterable[Specification]
         lines.append(f"  {part} : module_{part}({', '.join(parts)});")
     if names.constants:
         lines += ["CONSTANTS", f"  {', '.join(names.constants.values())};"]
-    lines += [f"JUSTICE {formula};" for formula in justice]
     for spec in specifications:
         keyword = {"invariant": "INVARSPEC", "ltl": "LTLSPEC", "ctl": "CTLSPEC"}[spec.kind]
         lines.append(f"{keyword} NAME {spec.name} := {spec.text};")

@@ -259,6 +259,10 @@ def _past_depth(bound: Bound) -> int:
 def to_ltl(bound: Bound, write: Callable[[Expr], str]) -> str:
     if isinstance(bound, State):
         return f"({write(bound.expr)})"
+    match bound:
+        case Temporal("always", (Temporal("implies", (State(a), Temporal("eventually", (State(b),)))),)) if b is negate(a):
+            # where not a, b holds at once; so the antecedent says nothing, and without it the tableau is smaller
+            return f"(G (F ({write(b)})))"
     word = _LTL[bound.op]
     if len(bound.args) == 1:
         return f"({word} {to_ltl(bound.args[0], write)})"
