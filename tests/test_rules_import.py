@@ -13,11 +13,13 @@ from dataclasses import replace
 from pathlib import Path
 
 import pytest
+from click.testing import CliRunner, Result
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
 from reference import reference
 from rotra.advice import Adviser, compile
+from rotra.cli import main
 from rotra.diagnostics import Rejected
 from rotra.frontends.rules import RuleBase, load_rule_base
 from rotra.pipeline.rules_import import import_rules
@@ -54,6 +56,20 @@ def test_a_folder_of_others_is_left_alone(tmp_path: Path) -> None:
     import_rules(source, tmp_path / "made")
     import_rules(CASES / "RB107-shared-alias" / "rules.pl", tmp_path / "made")
     assert load_rule_base(tmp_path / "made").ontology.canonical("belief", "redLight") == "redLight"
+
+
+def test_the_commands(tmp_path: Path) -> None:
+    def rotra(*arguments: str) -> Result:
+        return CliRunner().invoke(main, ["rules", *arguments])
+
+    made = rotra("import", str(CASES / "kept-and-repaired" / "rules.pl"), "-o", str(tmp_path / "made"), "--json")
+    assert made.exit_code == 0 and json.loads(made.output)["rules"] == 4
+    refused = rotra("import", str(CASES / "RB122-no-label" / "rules.pl"), "-o", str(tmp_path / "none"), "--json")
+    assert refused.exit_code == 2 and {d["code"] for d in json.loads(refused.output)["error"]} == {"RB122"}
+    text = rotra("export", "--rules", str(tmp_path / "made"), "--format", "prolog")
+    assert text.exit_code == 0 and "rule('r1#2', standard, [lightRed], [], " in text.output
+    (tmp_path / "latin.pl").write_bytes(b"% caf\xe9\n")
+    assert "IO100" in rotra("import", str(tmp_path / "latin.pl"), "-o", str(tmp_path / "none")).output
 
 
 def test_a_missing_file_is_said(tmp_path: Path) -> None:

@@ -78,8 +78,8 @@ def read_prolog_rules(file: Path) -> PublishedRules:
     try:
         text = file.read_text(encoding="utf-8-sig")
     except (OSError, UnicodeDecodeError) as error:
-        reason = error.strerror if isinstance(error, OSError) else "not UTF-8 text"
-        raise Rejected([problem("IO100", Origin(str(file)), f"cannot read the file: {reason}", "check the path")]) from error
+        reason, hint = (error.strerror, "check the path") if isinstance(error, OSError) else ("not UTF-8 text", "save it as UTF-8")
+        raise Rejected([problem("IO100", Origin(str(file)), f"cannot read the file: {reason}", hint)]) from error
     faults: list[Diagnostic] = []
     remarks: list[Diagnostic] = []
     rules: list[PublishedRule] = []

@@ -47,5 +47,8 @@ def show_rule(rules: str, identity: str) -> dict[str, Any]:
         "directives": [str(d) for d in rule.directives],
         "legal": list(rule.legal),
         "published_name": rule.published_name,
+        "authority": rule.authority,
+        "note": rule.note,
+        "accept": [f"{a.finding} {a.other}".strip() + f": {a.reason}" for a in rule.accept],
         "place": f"{rule.origin.file}:{rule.origin.line}",
     }
