@@ -23,8 +23,11 @@ from rotra.engines.jvm import EngineError
 
 REFUSED, FAILED, UNEXPECTED = 2, 3, 1
 errors = Console(stderr=True, highlight=False)
-screen = Console(highlight=False)
-_MARK = {"holds": "[green]holds[/]", "violated": "[red]violated[/]", "vacuous": "[yellow]vacuous[/]", "unknown": "[magenta]unknown[/]"}
+# a file or a pipe has no width of its own: wide enough for every table
+screen = Console(highlight=False, width=None if sys.stdout.isatty() else 140)
+_COLOUR = {"holds": "green", "violated": "red", "vacuous": "yellow", "unknown": "magenta"}
+_SIGN = {"holds": "✓", "violated": "✗", "vacuous": "○", "unknown": "?"}
+_MARK = {verdict: f"[{colour}]{verdict}[/]" for verdict, colour in _COLOUR.items()}
 
 
 def say_json(document: Any) -> None:
@@ -397,16 +400,18 @@ def verify(agents: tuple[str, ...], scenarios: tuple[str, ...], names: tuple[str
 
 
 def _matrix(rows: tuple[Any, ...]) -> None:
-    for scenario in dict.fromkeys(r.scenario for r in rows):
-        here = [r for r in rows if r.scenario == scenario]
-        drivers = list(dict.fromkeys(r.agent for r in here))
-        table = Table(f"{scenario} ({here[0].instance})", *drivers)
-        for name in dict.fromkeys(r.property for r in here):
-            cells = []
-            for d in drivers:
-                row = next((r for r in here if r.agent == d and r.property == name), None)
-                cells.append("" if row is None else _MARK[row.verdict] + ("" if row.as_expected is not False else f" [red]!! {row.expected} expected[/]"))
-            table.add_row(name, *cells)
+    scenarios = list(dict.fromkeys(r.scenario for r in rows))
+    drivers = list(dict.fromkeys(r.agent for r in rows))
+    cells = {(r.scenario, r.agent, r.property): r for r in rows}
+    if len(scenarios) > 1:
+        screen.print(_compact(cells, scenarios, drivers, rows[0].instance))
+        signs = ", ".join(f"{sign} {verdict}" for verdict, sign in _SIGN.items())
+        screen.print(f"{signs}; ! not as expected, - not asked there. In each cell: {', '.join(drivers)}.")
+    else:
+        table = Table(f"{scenarios[0]} ({rows[0].instance})" if rows else "", *drivers)
+        for name in dict.fromkeys(r.property for r in rows):
+            here = [cells.get((scenarios[0], d, name)) for d in drivers]
+            table.add_row(name, *("" if r is None else _MARK[r.verdict] + ("" if r.as_expected is not False else f" [red]!! {r.expected} expected[/]") for r in here))
         screen.print(table)
     for row in rows:
         if row.as_expected is False:
@@ -415,6 +420,19 @@ def _matrix(rows: tuple[Any, ...]) -> None:
     counts = {v: sum(r.verdict == v for r in rows) for v in _MARK}
     as_expected = sum(r.as_expected is not False for r in rows)
     say(f"{len(rows)} verdicts: " + ", ".join(f"{n} {v}" for v, n in counts.items() if n) + f"; {as_expected} as expected, {len(rows) - as_expected} not")
+
+
+def _compact(cells: dict[tuple[str, str, str], Any], scenarios: list[str], drivers: list[str], instance: str) -> Table:
+    """One table for all: a line a property, a sign a driver."""
+    table = Table(f"instance {instance}", *scenarios)
+    for name in dict.fromkeys(name for _, _, name in cells):
+        line = []
+        for scenario in scenarios:
+            here = [cells.get((scenario, driver, name)) for driver in drivers]
+            signs = ("-" if r is None else f"[{_COLOUR[r.verdict]}]{_SIGN[r.verdict]}[/]" + ("[red]![/]" if r.as_expected is False else "") for r in here)
+            line.append("" if not any(here) else " ".join(signs))
+        table.add_row(name, *line)
+    return table
 
 
 @main.command()
@@ -449,7 +467,7 @@ def _show_run(trace: dict[str, Any], watch: bool) -> None:
     if watch:
         for step in trace["steps"]:
             screen.clear()
-            say(draw_step(trace["rows"], step))
+            say(draw_step(trace["rows"], step, trace["lights"]))
             if sys.stdin.isatty():
                 click.pause("any key for the next step")
         return
@@ -476,12 +494,13 @@ def _show_run(trace: dict[str, Any], watch: bool) -> None:
 def explain(trace: Path, full: bool, rules: str) -> None:
     """Tell a trace in the words of the rules and plans."""
     from rotra.frontends.rules import load_rule_base
+    from rotra.pipeline.blame import better_act
     from rotra.pipeline.explain import explain as tell
     from rotra.pipeline.explain import read_trace
 
     document = read_trace(trace)
     base = load_rule_base(document.get("rules") or rules)
-    say(tell(document, full, {r.id: (str(r.paragraph), r.says) for r in base.rules}))
+    say(tell(document, full, {r.id: (str(r.paragraph), r.says) for r in base.rules}, better_act(base)))
 
 
 @main.command()

@@ -139,7 +139,8 @@ def trace_document(driver: Driver, scenario: Scenario, which: str, rules: str, s
     """A trace with all that `explain` and `replay` need to know about it."""
     return {
         "agent": driver.name or str(driver.file), "scenario": scenario.source, "instance": which, "rules": rules,
-        "property": prop, "says": says, "verdict": verdict, "rows": list(scenario.rows), "loop": loop, "steps": steps,
+        "property": prop, "says": says, "verdict": verdict, "rows": list(scenario.rows),
+        "lights": {light.name: list(light.at) for light in scenario.lights}, "loop": loop, "steps": steps,
     }
 
 
