@@ -232,3 +232,7 @@ def test_rules_view() -> None:
     assert {"id", "paragraph", "says", "directives"} <= set(rows[0])
     assert show_rule("uk", "r175a")["directives"] == ["must stop_at_white_line"]
     json.dumps([rows, show_rule("uk", "r175a")])
+
+
+def test_every_must_of_the_uk_names_its_law() -> None:
+    assert [r.id for r in load_rule_base("uk").rules if any(d.label == "must" for d in r.directives) and not r.legal] == []

@@ -41,7 +41,6 @@ CODES: dict[str, str] = {
     "RB106": "not usable as a name",
     "RB107": "one word for two terms",
     "RB108": "a condition that cannot be read",
-    "RB109": "a must without a law",
     "RB110": "not a context",
     "RB111": "a rule base without rules",
     "RB112": "a word of a situation that the ontology does not know",

@@ -455,16 +455,6 @@ def _rule(node: Node, section: str, ontology: Ontology, findings: list[Diagnosti
     directives = tuple(dict.fromkeys(_directive(n, ontology, findings) for n in node.at("directives")))
     unless = [_exception(n, ontology, findings) for n in node.get("unless") or ()]
     legal = tuple(str(n.value) for n in node.get("legal") or ())
-    # What was imported says must on the word of its source, which names no laws.
-    if any(d.label == "must" for d in directives) and not legal and not ontology.imported_from:
-        findings.append(
-            problem(
-                "RB109",
-                node.at("id").origin(),
-                f"{text('id')} says must but names no law",
-                "add `legal: [...]`, or say should: must is for what the law demands",
-            )
-        )
     authority = text("authority")
     if authority and authority not in ontology.authorities:
         known = ", ".join(ontology.authorities) or "none: add `authorities:` to ontology.yaml, the strongest first"
