@@ -9,7 +9,7 @@ from __future__ import annotations
 import json
 import sys
 from collections.abc import Callable
-from functools import wraps
+from functools import partial, wraps
 from pathlib import Path
 from typing import Any
 
@@ -497,10 +497,11 @@ def explain(trace: Path, full: bool, rules: str) -> None:
     from rotra.pipeline.blame import better_act
     from rotra.pipeline.explain import explain as tell
     from rotra.pipeline.explain import read_trace
+    from rotra.pipeline.silence import silent_rules
 
     document = read_trace(trace)
     base = load_rule_base(document.get("rules") or rules)
-    say(tell(document, full, {r.id: (str(r.paragraph), r.says) for r in base.rules}, better_act(base)))
+    say(tell(document, full, {r.id: (str(r.paragraph), r.says) for r in base.rules}, better_act(base), partial(silent_rules, base)))
 
 
 @main.command()

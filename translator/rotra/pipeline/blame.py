@@ -46,6 +46,12 @@ def better_act(base: RuleBase) -> Callable[[Mapping[str, Any], str], str | None]
     return better
 
 
+def act_contradicts(base: RuleBase, step: Mapping[str, Any], act: str, action: str) -> bool:
+    """Does the act go against the action in this step, by what the rule base says it means?"""
+    meaning = base.meaning(action)
+    return meaning is not None and contradicts(act, meaning.contradicted_by, _facts(step))
+
+
 def contradicts(act: str, meanings: Sequence[Contradiction], percepts: Sequence[Struct]) -> bool:
     """Does the act go against an action of these meanings, with these percepts?"""
     done = parse_ground(act)

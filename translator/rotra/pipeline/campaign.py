@@ -12,7 +12,7 @@ import shutil
 import time
 from collections.abc import Callable
 from concurrent.futures import ProcessPoolExecutor, as_completed
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Any
 
@@ -22,6 +22,7 @@ from rotra.frontends.scenario import Scenario, instance, resolve_scenario
 from rotra.lowering.model import build_model
 from rotra.origins import Origin
 from rotra.pipeline.inputs import Driver, Law, check_driver, load_drivers, load_law, shipped_agents, shipped_scenarios
+from rotra.pipeline.silence import why_violated
 from rotra.pipeline.verify import Verdict, verify_model
 
 
@@ -91,6 +92,8 @@ def run_campaign(wanted: Wanted, on_done: Callable[[str, int, int], None]) -> Re
         for phase, seconds in timings.items():
             result.timings[phase] = result.timings.get(phase, 0.0) + seconds
         for prop, verdict in zip(_applying(properties, scenario), verdicts, strict=True):
+            if verdict.verdict == "violated":
+                verdict = replace(verdict, reason=why_violated(law.base, verdict.steps, verdict.loop))
             rows.append(_row(driver, scenario, wanted, prop, verdict, traces))
     result.rows = tuple(rows)
     result.timings["wall"] = time.monotonic() - begun

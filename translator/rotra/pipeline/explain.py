@@ -24,6 +24,7 @@ from rotra.origins import Origin
 Paragraphs = Mapping[str, tuple[str, str]]
 # (step, action) -> an act that would not have contradicted the action, None where none is known
 Better = Callable[[Mapping[str, Any], str], str | None]
+Silent = Callable[[Mapping[str, Any]], Iterable[str]]
 
 _TEXTS = {"type": "array", "items": {"type": "string"}}
 _DIRECTIVES = {"type": "array", "items": {"type": "object", "required": ["label", "action"], "properties": {"label": {"type": "string"}, "action": {"type": "string"}, "rules": _TEXTS}}}
@@ -113,8 +114,11 @@ def _short(text: str) -> str:
     return text if len(text) <= 200 else "..." + text[-197:]
 
 
-def explain(trace: Mapping[str, Any], full: bool, rules: Paragraphs | None = None, better: Better | None = None) -> str:
-    """The story of a trace.  `full`: all of every step; else what changed since the step before."""
+def explain(trace: Mapping[str, Any], full: bool, rules: Paragraphs | None = None, better: Better | None = None, silent: Silent | None = None) -> str:
+    """The story of a trace.  `full`: all of every step; else what changed since the step before.
+
+    `better`, `silent`: what else could have been done (blame.py), which rules say nothing (silence.py); left out where None.
+    """
     story = _Story(full, rules or {}, better)
     steps: Sequence[Mapping[str, Any]] = trace["steps"]
     loop: int | None = trace.get("loop")
@@ -127,6 +131,8 @@ def explain(trace: Mapping[str, Any], full: bool, rules: Paragraphs | None = Non
         lines += story.step(step, before)
         before = step
     lines += ["", *_end(steps, loop, story)]
+    if silent is not None and not story.blame and loop is None and steps and trace.get("verdict") == "violated":
+        lines += [f"       in step {steps[-1]['step']} {told}" for told in silent(steps[-1])]
     return "\n".join(lines)
 
 
