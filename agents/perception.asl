@@ -29,6 +29,7 @@ believes(light_red)   :- light_shows(red_amber).
 believes(light_amber) :- light_shows(red_amber).
 believes(light_amber) :- light_shows(amber).
 believes(light_green) :- light_shows(green).
+believes(light_against_us) :- light_shows(C) & C \== green.
 believes(at_traffic_light)    :- stop_line(0,0).
 believes(traffic_light_ahead) :- next_line(A) & A > 0.
 believes(able_to_stop_by_white_line) :- next_line(_).      // a car of this world can stop in any cell
