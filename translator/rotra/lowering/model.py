@@ -17,6 +17,7 @@ from rotra.lowering.vocabulary import Adviser
 from rotra.lowering.world import lower_world, possible_percepts, views
 from rotra.origins import Origin
 from rotra.system.expr import FALSE, Expr, var, walk
+from rotra.system.sharing import share
 from rotra.system.transition import Part, System
 
 
@@ -33,7 +34,7 @@ class Model:
         minds = [driver_part(self.driver), self.adviser.part()]
         if self.observer is not None:
             minds += [driver_part(self.observer[0]), self.observer[1].part()]
-        return _with_world(self.scenario, minds, asked, self.driver.acts, None)
+        return share(_with_world(self.scenario, minds, asked, self.driver.acts, None))
 
     def everything(self) -> System:
         """The same with every percept there can be: for traces, not for the engine."""
