@@ -29,17 +29,19 @@ class Model:
     driver: DriverModel
     adviser: Adviser
     observer: tuple[DriverModel, Adviser] | None = None
+    whole_world: Part | None = None
 
     def system(self, asked: Iterable[Expr] = ()) -> System:
         minds = [driver_part(self.driver), self.adviser.part()]
         if self.observer is not None:
             minds += [driver_part(self.observer[0]), self.observer[1].part()]
-        return share(_with_world(self.scenario, minds, asked, self.driver.acts, None))
+        return share(_with_world(self.scenario, minds, asked, self.driver.acts))
 
     def everything(self) -> System:
         """The same with every percept there can be: for traces, not for the engine."""
-        minds = [driver_part(self.driver), self.adviser.part()]
-        return _with_world(self.scenario, minds, (), self.driver.acts, possible_percepts(self.scenario))
+        if self.whole_world is None:
+            self.whole_world = lower_world(self.scenario, possible_percepts(self.scenario), self.driver.acts)
+        return System((self.whole_world, driver_part(self.driver), self.adviser.part()))
 
 
 def senses_of(scenario: Scenario) -> Senses:
@@ -65,8 +67,8 @@ def _mind(agent: Agent, advice: tuple[Rule, ...], rules: Mapping[str, Origin], s
     return driver, adviser
 
 
-def _with_world(scenario: Scenario, minds: list[Part], asked: Iterable[Expr], acts: tuple[str, ...], percepts: Iterable[str] | None) -> System:
-    if percepts is None:
-        roots = [d.expr for p in minds for d in p.definitions] + [v.next for p in minds for v in p.variables if v.next is not None] + list(asked)
-        percepts = sorted({e.args[0][2:] for e in walk(roots) if e.op == "ref" and e.args[0].startswith("p:")})
+def _with_world(scenario: Scenario, minds: list[Part], asked: Iterable[Expr], acts: tuple[str, ...]) -> System:
+    """The minds in the world, of which only those percepts are written that somebody asks for."""
+    roots = [d.expr for p in minds for d in p.definitions] + [v.next for p in minds for v in p.variables if v.next is not None] + list(asked)
+    percepts = sorted({e.args[0][2:] for e in walk(roots) if e.op == "ref" and e.args[0].startswith("p:")})
     return System((lower_world(scenario, tuple(percepts), acts), *minds))
