@@ -9,7 +9,7 @@ from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from typing import Any
 
-from rotra.frontends.terms import Items, Struct, Sum, Term, Text, Var, resolve
+from rotra.frontends.terms import Items, Struct, Sum, Term, Text, Var, resolve, show
 from rotra.origins import Origin
 
 
@@ -24,7 +24,6 @@ class Formula:
     op: str
     args: tuple[Any, ...] = ()
     name: str = ""
-    annotated: bool = False
 
 
 TRUE_FORMULA = Formula("true")
@@ -56,8 +55,6 @@ class Trigger:
     annotations: tuple[Term, ...] = ()
 
     def __str__(self) -> str:
-        from rotra.frontends.terms import show
-
         return self.op + {"belief": "", "achieve": "!", "test": "?"}[self.type] + show(self.literal)
 
 
@@ -92,6 +89,16 @@ class Agent:
     goals: tuple[tuple[Struct, Origin], ...]
     plans: tuple[Plan, ...]
     warnings: tuple[str, ...] = ()
+    unread: tuple[Unread, ...] = ()
+
+
+@dataclass(frozen=True, slots=True)
+class Unread:
+    """Something the AST of Jason holds and ours has no place for; kept so that it is refused and not lost."""
+
+    code: str
+    what: str
+    origin: Origin
 
 
 def read_term(data: Mapping[str, Any]) -> Term:
@@ -135,7 +142,7 @@ def read_formula(data: Mapping[str, Any] | None) -> Formula:
         case "rel":
             return Formula("rel", (read_term(data["left"]), read_term(data["right"])), data["op"])
         case "lit":
-            return Formula("lit", (_literal(data["literal"]),), annotated=bool(data["literal"].get("annots")))
+            return Formula("lit", (_literal(data["literal"]),))
         case "internal":
             return Formula("internal", tuple(map(read_term, data["args"])), data["name"])
     return Formula(data["f"])
@@ -178,7 +185,32 @@ def read_agent(file: str, ast: Mapping[str, Any]) -> Agent:
         atomic = any(isinstance(a, Struct) and a.name == "atomic" for a in annotations)
         plans.append(Plan(p["label"], trigger, read_formula(p["context"]), read_body(p["body"]), origin, atomic, annotations))
     warnings = tuple(w["message"] if isinstance(w, dict) else str(w) for w in ast.get("warnings") or ())
-    return Agent(file, tuple(r for _, r in sorted(knowledge, key=lambda k: k[0])), goals, tuple(plans), warnings)
+    return Agent(file, tuple(r for _, r in sorted(knowledge, key=lambda k: k[0])), goals, tuple(plans), warnings, tuple(_unread(ast, Origin(file))))
+
+
+def _unread(part: Any, near: Origin) -> Iterator[Unread]:
+    """Annotations (but those of triggers, which are kept), namespaces, open lists and extended plans, wherever they stand."""
+    if isinstance(part, list):
+        for item in part:
+            yield from _unread(item, near)
+    if not isinstance(part, Mapping):
+        return
+    if part.get("line"):
+        near = Origin(part.get("file") or near.file, int(part["line"]))
+    if part.get("extended"):
+        yield Unread("AG113", "a plan with a goal condition or plans inside it", near)
+    if part.get("ns") and str(part["ns"]) != "default":
+        yield Unread("AG113", f"the namespace {part['ns']}", near)
+    if part.get("t") == "list" and part.get("tail"):
+        yield Unread("AG113", "a list with an open end, [H|T],", near)
+    if part.get("t") in ("struct", "var") and part.get("annots"):
+        written = ",".join(show(read_term(a)) for a in part["annots"])
+        yield Unread("AG114", f"the annotation [{written}] of {part.get('name')}", near)
+    for key, inner in part.items():
+        if key == "trigger":
+            yield from _unread({**inner, "literal": {**inner["literal"], "annots": []}}, near)
+        else:
+            yield from _unread(inner, near)
 
 
 def steps_of(body: Body) -> Iterator[Step]:

@@ -21,14 +21,26 @@ _IN_FORMULAS = frozenset(".print .println .log .intend .desire .member .count .g
 _MESSAGES = frozenset(".send .broadcast .my_name .all_names .receive".split())
 _CLOCK = frozenset(".wait .at .time .date .random .random_element .shuffle .nano_time math.random system.time".split())
 _STEPS = frozenset("action internal achieve achieve_new test add add_end add_new del del_new update constraint if".split())
-_ERROR_ANNOTATIONS = frozenset("error busy no_such_act source".split())
+_ERROR_ANNOTATIONS = frozenset("error busy no_such_act".split())
 
 
 def check_fragment(agent: Agent, top_speed: int) -> None:
     """Errors: AG101 to AG103 and AG111 to AG115, every one found, as one `Rejected`."""
-    found = [*_triggers(agent), *_bodies(agent, top_speed), *_formulas(agent)]
+    found = [*_unread(agent), *_knowledge(agent), *_triggers(agent), *_bodies(agent, top_speed), *_formulas(agent)]
     if found:
         raise Rejected(found)
+
+
+def _unread(agent: Agent) -> Iterator[Diagnostic]:
+    for unread in agent.unread:
+        hint = "leave the annotation out; a driver cannot tell beliefs apart by it" if unread.code == "AG114" else "write it without; agents/README.md lists the fragment"
+        yield problem(unread.code, unread.origin, f"{unread.what} is not translated", hint)
+
+
+def _knowledge(agent: Agent) -> Iterator[Diagnostic]:
+    for rule in agent.knowledge:
+        if PERCEPTS.get(rule.head.name) == len(rule.head.args) and not rule.head.negated:
+            yield problem("AG112", rule.origin, f"{show(rule.head)} is a percept; a driver cannot believe it on its own account", "give your own belief another name, as in `seen(car)`")
 
 
 def _derived(agent: Agent) -> frozenset[tuple[str, int]]:
@@ -43,6 +55,9 @@ def _triggers(agent: Agent) -> Iterator[Diagnostic]:
             yield problem("AG113", plan.origin, f"the trigger {trigger} is not translated", "use +!g, -!g, +b or -b")
         elif trigger.type == "belief" and (trigger.literal.name, len(trigger.literal.args)) in _derived(agent):
             yield problem("AG111", plan.origin, f"{trigger} never happens: {trigger.literal.name} is derived by rules, and Jason raises no event for it", "ask for it in the context of a goal that calls itself, as in `+!drive : advised(must, A) <- ...; !drive`")
+        for annotation in plan.annotations:
+            if annotation != Struct("atomic"):
+                yield problem("AG114", plan.origin, f"the annotation {show(annotation)} of a plan is not translated", "leave it out; only [atomic] is translated")
         for annotation in trigger.annotations:
             if not (isinstance(annotation, Struct) and annotation.name in _ERROR_ANNOTATIONS):
                 yield problem("AG114", plan.origin, f"the annotation {show(annotation)} of a trigger is not translated", "leave it out, or use error(E), busy or no_such_act in a -! plan")
@@ -113,8 +128,6 @@ def _formula(formula: Formula, origin: Origin) -> Iterator[Diagnostic]:
         yield from _internal(formula.name, origin, _IN_FORMULAS)
     elif formula.op == "rel" and formula.name == "=..":
         yield problem("AG113", origin, "`=..` is not translated", "name the literal")
-    elif formula.op == "lit" and formula.annotated:
-        yield problem("AG114", origin, f"the annotation of {show(formula.args[0])} is not translated", "ask for the belief without its annotation")
     elif formula.op in ("and", "or", "not"):
         for part in formula.args:
             yield from _formula(part, origin)

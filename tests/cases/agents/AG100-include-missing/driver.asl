@@ -1,0 +1,3 @@
+{ include("nowhere.asl") }
+!drive.
++!drive <- wait; !drive.

@@ -1,0 +1,2 @@
+{ include("plans.asl") }
+!drive.

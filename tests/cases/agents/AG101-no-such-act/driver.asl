@@ -1,0 +1,2 @@
+!drive.
++!drive <- brake; !drive.

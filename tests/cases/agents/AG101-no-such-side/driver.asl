@@ -1,0 +1,2 @@
+!drive.
++!drive <- turn(nearside, 1); !drive.

@@ -1,0 +1,2 @@
+!drive.
++!drive <- .findall(A, car(0, A), Cars); wait; !drive.

@@ -1,0 +1,2 @@
+!drive.
++!drive <- .send(other, tell, coming); wait; !drive.

@@ -1,0 +1,2 @@
+!drive.
++!drive <- .wait(1000); wait; !drive.

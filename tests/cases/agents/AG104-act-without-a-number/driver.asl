@@ -1,0 +1,2 @@
+!drive.
++!drive <- forward(N); !drive.

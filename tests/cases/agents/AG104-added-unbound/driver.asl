@@ -1,0 +1,2 @@
+!drive.
++!drive <- +seen(X); wait; !drive.

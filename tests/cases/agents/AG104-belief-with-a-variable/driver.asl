@@ -1,0 +1,3 @@
+fast(S).
+!drive.
++!drive : fast(2) <- wait; !drive.

@@ -1,0 +1,2 @@
+!drive.
++!drive : S < 3 <- forward(S); !drive.

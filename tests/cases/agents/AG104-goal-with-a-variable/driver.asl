@@ -1,0 +1,2 @@
+!drive(N).
++!drive(N) <- wait; !drive(N).

@@ -1,0 +1,3 @@
+!drive.
++!drive <- wait; !again; +driven.
++!again <- !drive; +again.

@@ -1,0 +1,3 @@
+!drive.
++!drive <- !look(N); forward(N); !drive.
++!look(N) <- wait; !look(N).

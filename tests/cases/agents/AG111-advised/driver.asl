@@ -1,0 +1,3 @@
+!drive.
++!drive <- wait; !drive.
++advised(must, stop_at_white_line) <- +held.

@@ -1,0 +1,2 @@
+!drive.
++!drive <- -+speed(0); wait; !drive.

@@ -1,0 +1,3 @@
+limit(9).
+!drive.
++!drive : limit(9) <- wait; !drive.

@@ -1,0 +1,2 @@
+!drive.
++!drive <- for (car(0, A)) { +seen(A) }; wait; !drive.

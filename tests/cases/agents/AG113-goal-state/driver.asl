@@ -1,0 +1,3 @@
+!drive.
++!drive <- wait; !drive.
+^!drive[state(failed)] <- +failed.

@@ -1,0 +1,3 @@
+seen([1, 2]).
+!drive.
++!drive : seen([H | T]) <- forward(H); !drive.

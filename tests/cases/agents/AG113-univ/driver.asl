@@ -1,0 +1,2 @@
+!drive.
++!drive : task(T) & T =.. L <- wait; !drive.

@@ -1,0 +1,2 @@
+!drive.
++!drive <- while (speed(0)) { wait }; !drive.

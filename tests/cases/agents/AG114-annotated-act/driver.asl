@@ -1,0 +1,2 @@
+!drive.
++!drive <- forward(1)[fast]; !drive.

@@ -1,0 +1,2 @@
+!drive.
++!drive <- +seen(car)[at(3)]; wait; !drive.

@@ -1,0 +1,3 @@
+seen(car)[certain].
+!drive.
++!drive : seen(car) <- wait; !drive.

@@ -1,0 +1,3 @@
+!drive.
++!drive <- wait; !drive.
++car(0, 1)[source(self)] <- +seen(car).

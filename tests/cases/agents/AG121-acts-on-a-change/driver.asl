@@ -1,0 +1,3 @@
+!drive.
++!drive <- wait; !drive.
++car(0, 1) <- turn(left, 1).
