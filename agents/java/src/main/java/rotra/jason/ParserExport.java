@@ -72,6 +72,8 @@ final class ParserExport {
     private static final Pattern INCLUDE = Pattern.compile("include\\s*\\(\\s*\"([^\"]*)\"");
     private static final Pattern URL = Pattern.compile("^[a-zA-Z][a-zA-Z0-9+.-]+:.*");
     private static final Pattern PLACE = Pattern.compile("\\[([^\\[\\]]*):(\\d+)\\]");
+    private static final Pattern INCLUDED = Pattern.compile("error parsing \"(?:file:)?([^\"]*)\"");
+    private static final Pattern LABEL_TWICE = Pattern.compile("already is a plan with label (\\w+)");
     private static final Pattern LEXICAL = Pattern.compile("line (\\d+), column (\\d+)");
 
     private ParserExport() { }
@@ -177,12 +179,35 @@ final class ParserExport {
         if (e instanceof ParseException p && p.currentToken != null && p.currentToken.next != null) {
             return new Refused(file, p.currentToken.next.beginLine, p.currentToken.next.beginColumn, message);
         }
+        Matcher twice = LABEL_TWICE.matcher(message);
+        if (twice.find()) {
+            return new Refused(file, lastLineOf(file, Pattern.compile("@" + twice.group(1) + "\\b")), 0, message);
+        }
+        Matcher included = INCLUDED.matcher(message);
+        Matcher there = LEXICAL.matcher(message);
+        if (included.find() && there.find()) {
+            return new Refused(included.group(1), Integer.parseInt(there.group(1)), Integer.parseInt(there.group(2)), message.substring(included.end()).replaceFirst("^[: ]+", ""));
+        }
         Matcher place = PLACE.matcher(message);
         if (place.find()) {
             return new Refused(place.group(1).isEmpty() ? file : place.group(1), Integer.parseInt(place.group(2)), 0, message);
         }
         Matcher line = LEXICAL.matcher(message);
         return line.find() ? new Refused(file, Integer.parseInt(line.group(1)), Integer.parseInt(line.group(2)), message) : new Refused(file, 0, 0, message);
+    }
+
+    /** The last line of a file that holds the pattern, as Jason does not say where it stands; 0 where none does. */
+    private static int lastLineOf(String file, Pattern pattern) {
+        int found = 0;
+        try {
+            List<String> lines = Files.readAllLines(Path.of(file), StandardCharsets.UTF_8);
+            for (int i = 0; i < lines.size(); i++) {
+                found = pattern.matcher(lines.get(i)).find() ? i + 1 : found;
+            }
+        } catch (IOException e) {
+            return 0;
+        }
+        return found;
     }
 
     private static JsonObject ast(Agent agent, String file, JsonArrayBuilder warnings) {

@@ -1,0 +1,2 @@
+!drive(0).
++!drive(N) <- wait; !drive(N + 1).
