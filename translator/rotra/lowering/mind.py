@@ -100,20 +100,31 @@ def legal_acts(top_speed: int) -> tuple[str, ...]:
 
 def lower_driver(agent: Agent, advice: Iterable[Rule], senses: Senses, suffix: str = "") -> DriverModel:
     """`suffix` keeps two drivers of one product model apart.  Errors: the AG1xx codes of the fragment, as `Rejected`."""
+    rules = tuple(advice)
+    try:
+        return _explored(agent, rules, senses, suffix, _replaced_only(agent))
+    except Rejected as refusal:
+        if any(d.code != "AG106" for d in refusal.diagnostics):
+            raise
+        # the order of beliefs matters only where there are several: try to prove that there never are
+        return _explored(agent, rules, senses, suffix, _one_at_first(agent))
+
+
+def _explored(agent: Agent, advice: tuple[Rule, ...], senses: Senses, suffix: str, single: frozenset[Indicator]) -> DriverModel:
+    """`single`: the functors of which one belief at most is taken to stand at rest, as long as that proves to be so."""
     known = tuple(sorted({b for b in _initial_beliefs(agent) if indicator(b) in _dynamic(agent)}, key=show))
-    single = _one_at_first(agent)
     while True:
-        build = _Build(agent, tuple(advice), senses, known, single, suffix)
+        build = _Build(agent, advice, senses, known, single, suffix)
         model = build.run()
         found = tuple(sorted(build.instances, key=show))
         several = build.several()
         if found == known and not several:
             return model
-        single -= several
         if len(found) > MAX_BELIEFS:
             worst = max(found, key=lambda b: len(show(b)))
             raise Rejected([problem("AG110", Origin(agent.file, 1), f"beliefs of the form {worst.name}/{len(worst.args)} grow without end", "keep the counter inside a bound, as in `N < 4`")])
         known = found
+        single -= several
 
 
 def _initial_beliefs(agent: Agent) -> Iterator[Struct]:
@@ -135,6 +146,12 @@ def _one_at_first(agent: Agent) -> frozenset[Indicator]:
     """Functors of which at most one belief may stand at rest: so it is at the start; whether it stays so is proved step by step."""
     initial = tuple(_initial_beliefs(agent))
     return frozenset(key for key in _dynamic(agent) if sum(indicator(b) == key for b in initial) <= 1)
+
+
+def _replaced_only(agent: Agent) -> frozenset[Indicator]:
+    """Those of them that no plan adds but by `-+`, which takes the old one away."""
+    added = {indicator(s.literal) for p in agent.plans for s in steps_of(p.body) if s.kind in ("add", "add_end", "add_new") and isinstance(s.literal, Struct)}
+    return _one_at_first(agent) - added
 
 
 class _Build:
