@@ -197,6 +197,10 @@ def _unread(part: Any, near: Origin) -> Iterator[Unread]:
         return
     if part.get("line"):
         near = Origin(part.get("file") or near.file, int(part["line"]))
+    if part.get("b") in ("for", "while", "fork"):
+        return  # refused as a whole
+    if part.get("t") in ("formula", "body"):
+        yield Unread("AG113", "a formula or a plan body as an argument", near)
     if part.get("extended"):
         yield Unread("AG113", "a plan with a goal condition or plans inside it", near)
     if part.get("ns") and str(part["ns"]) != "default":

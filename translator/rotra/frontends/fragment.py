@@ -126,6 +126,8 @@ def _formulas(agent: Agent) -> Iterator[Diagnostic]:
 def _formula(formula: Formula, origin: Origin) -> Iterator[Diagnostic]:
     if formula.op == "internal":
         yield from _internal(formula.name, origin, _IN_FORMULAS)
+    elif formula.op == "lit" and isinstance(formula.args[0], Struct) and "." in formula.args[0].name:
+        yield from _internal(formula.args[0].name, origin, _IN_FORMULAS)  # one that Jason does not know either, read as a belief
     elif formula.op == "rel" and formula.name == "=..":
         yield problem("AG113", origin, "`=..` is not translated", "name the literal")
     elif formula.op in ("and", "or", "not"):

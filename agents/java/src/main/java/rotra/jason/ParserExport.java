@@ -347,7 +347,11 @@ final class ParserExport {
     static JsonObject term(Term t) {
         JsonObjectBuilder out = Json.createObjectBuilder();
         if (t instanceof VarTerm v) {
-            return out.add("t", "var").add("name", v.getFunctor()).add("neg", v.negated()).build();
+            JsonArrayBuilder annotations = Json.createArrayBuilder();
+            if (v.hasAnnot()) {
+                v.getAnnots().forEach(annotation -> annotations.add(term(annotation)));
+            }
+            return out.add("t", "var").add("name", v.getFunctor()).add("neg", v.negated()).add("annots", annotations).build();
         }
         if (t instanceof Plan) {
             return out.add("t", "formula").add("formula", Json.createObjectBuilder().add("f", "plan").add("text", t.toString())).build();

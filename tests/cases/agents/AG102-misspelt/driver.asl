@@ -1,0 +1,3 @@
+!drive.
++!drive : .desires(drive) <- wait; !drive.
++!drive <- forward(1); !drive.

@@ -1,0 +1,2 @@
+!drive.
++!drive : X[source(percept)] <- wait; !drive.
