@@ -8,9 +8,8 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 from dataclasses import dataclass
-from pathlib import Path
 
-from rotra.origins import Origin
+from rotra.origins import Origin, real_path
 
 # Every code once, with its title; tests/test_diagnostics.py demands a case file for each.
 CODES: dict[str, str] = {
@@ -143,7 +142,7 @@ def _line_of(origin: Origin) -> str:
     if not origin.line:
         return ""
     try:
-        lines = Path(origin.file).read_text(encoding="utf-8", errors="replace").splitlines()
+        lines = real_path(origin.file).read_text(encoding="utf-8", errors="replace").splitlines()
     except OSError:
         return ""
     return lines[origin.line - 1].rstrip() if origin.line <= len(lines) else ""

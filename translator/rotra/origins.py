@@ -1,11 +1,15 @@
 """Where a thing came from: the file and line that a message, a model line or a trace names.
 
-In: nothing.  Out: `Origin`, carried by every node of every stage.  Left to others: the messages (diagnostics.py).
+In: nothing.  Out: `Origin`, carried by every node of every stage, and how its file is named.  Left to others: the messages (diagnostics.py).
 """
 
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import cache
+from pathlib import Path
+
+PROJECT = Path(__file__).resolve().parents[2]
 
 
 @dataclass(frozen=True, slots=True, order=True)
@@ -22,3 +26,16 @@ class Origin:
 
 
 NOWHERE = Origin("")
+
+
+@cache
+def shown_path(file: str) -> str:
+    """A path inside the project without the place where the project lies; any other as it was given."""
+    path = Path(file)
+    return str(path.relative_to(PROJECT)) if path.is_absolute() and path.is_relative_to(PROJECT) else file
+
+
+def real_path(file: str) -> Path:
+    """The file that such a path names: as it stands, else from the project's root."""
+    path = Path(file)
+    return path if path.is_absolute() or path.is_file() else PROJECT / path

@@ -17,7 +17,7 @@ from rotra.diagnostics import Rejected, problem
 from rotra.engines import places
 from rotra.engines.process import run
 from rotra.frontends.agent import Agent, read_agent
-from rotra.origins import Origin
+from rotra.origins import Origin, shown_path
 
 _INCLUDE = re.compile(r'include\(\s*"([^"]*)"')
 
@@ -74,12 +74,11 @@ def placed(ast: Any) -> Any:
         return [placed(part) for part in ast]
     if not isinstance(ast, dict):
         return ast
-    return {key: shown_path(value) if key == "file" and isinstance(value, str) else placed(value) for key, value in ast.items()}
+    return {key: _shown(value) if key == "file" and isinstance(value, str) else placed(value) for key, value in ast.items()}
 
 
-def shown_path(file: str) -> str:
-    path = Path("/") / file.removeprefix("file:")
-    return str(path.relative_to(places.PROJECT)) if path.is_relative_to(places.PROJECT) else str(path)
+def _shown(file: str) -> str:
+    return shown_path(str(Path("/") / file.removeprefix("file:")))
 
 
 def _short(message: str) -> str:

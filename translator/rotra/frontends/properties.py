@@ -19,12 +19,11 @@ from lark import Lark
 from lark.exceptions import UnexpectedInput, UnexpectedToken
 
 from rotra.diagnostics import Diagnostic, Rejected, problem
-from rotra.engines.places import PROJECT
 from rotra.frontends.fragment import ACTS, PERCEPTS
 from rotra.frontends.rules import RuleBase
 from rotra.frontends.terms import Struct, Sum, Term, Var, show, variables
 from rotra.frontends.yamlfile import Node, load_yaml
-from rotra.origins import Origin
+from rotra.origins import PROJECT, Origin, real_path
 
 # word -> how many arguments it may have
 WORDS: Mapping[str, tuple[int, ...]] = {
@@ -103,7 +102,7 @@ def load_properties(given: str | Path | None, base: RuleBase) -> tuple[Property,
             continue
         known = {r.id for r in base.rules}
         # the catalogue that ships is written for the rules that ship: another base may have other ones, or lack some
-        ours = file not in shipped or Path(base.folder).resolve() == PROJECT / "rules" / "uk"
+        ours = file not in shipped or real_path(base.folder).resolve() == PROJECT / "rules" / "uk"
         for node in root:
             read = _property(node, base, known if ours else None, found)
             if any(p.id == read.id for p in loaded):

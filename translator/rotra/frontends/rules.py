@@ -24,9 +24,8 @@ from typing import Any
 from rotra.diagnostics import Diagnostic, Rejected, problem
 from rotra.frontends.meaning import ACTS, formula_fault, pattern_fault
 from rotra.frontends.yamlfile import Node, load_yaml
-from rotra.origins import Origin
+from rotra.origins import PROJECT, Origin, shown_path
 
-PROJECT = Path(__file__).resolve().parents[3]
 RULES = PROJECT / "rules"
 SCHEMAS = RULES / "schema"
 KINDS = ("belief", "intention", "action")
@@ -210,13 +209,6 @@ def _read_rule_base(folder: Path, contents: tuple[tuple[str, str], ...]) -> Rule
     if findings:
         raise Rejected(findings)
     return RuleBase(ontology[0], shown_path(str(folder)), ontology[1], rules, meanings, tuple(accept))
-
-
-@cache
-def shown_path(file: str) -> str:
-    """A path inside the project without the place where the project lies; any other as it was given."""
-    path = Path(file)
-    return str(path.relative_to(PROJECT)) if path.is_absolute() and path.is_relative_to(PROJECT) else file
 
 
 def _folder(given: str | Path) -> Path:

@@ -12,7 +12,7 @@ from pathlib import Path
 import yaml
 
 from rotra.diagnostics import Rejected, problem
-from rotra.origins import Origin
+from rotra.origins import Origin, shown_path
 
 _Loader = getattr(yaml, "CSafeLoader", yaml.SafeLoader)
 
@@ -54,7 +54,7 @@ class Node:
 
 def load_yaml(path: Path | str) -> Node:
     """The one document of a YAML file; an empty file is a Node holding None."""
-    name = str(path)
+    name = shown_path(str(path))
     try:
         text = Path(path).read_text(encoding="utf-8")
     except (OSError, UnicodeDecodeError) as error:

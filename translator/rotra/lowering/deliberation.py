@@ -14,8 +14,8 @@ from collections.abc import Callable, Iterable, Iterator, Mapping
 from dataclasses import dataclass, field, replace
 
 from rotra.diagnostics import Rejected, problem
-from rotra.frontends.agent import Agent, Body, Formula, Plan, Step, Trigger
-from rotra.frontends.terms import Struct, Substitution, Sum, Term, Var, is_ground, resolve, show, unify, variables
+from rotra.frontends.agent import Agent, Body, Formula, Plan, Step
+from rotra.frontends.terms import Struct, Substitution, Term, Var, is_ground, resolve, show, unify, variables
 from rotra.lowering.query import IGNORED_ACTIONS, Indicator, Knowledge, Mind, Solution, indicator, solve
 from rotra.origins import Origin
 from rotra.system.expr import FALSE, TRUE, Expr, choose, conj, disj, negate

@@ -16,7 +16,24 @@ from itertools import count
 
 from rotra.diagnostics import Rejected, problem
 from rotra.frontends.agent import Formula, Rule
-from rotra.frontends.terms import Items, Struct, Substitution, Sum, Term, Text, Var, apart, is_ground, order, rename, resolve, show, unify, variables, walk_to
+from rotra.frontends.terms import (
+    Items,
+    Struct,
+    Substitution,
+    Sum,
+    Term,
+    Text,
+    Var,
+    apart,
+    is_ground,
+    order,
+    rename,
+    resolve,
+    show,
+    unify,
+    variables,
+    walk_to,
+)
 from rotra.origins import Origin
 from rotra.system.expr import FALSE, TRUE, Expr, conj, disj, negate
 

@@ -13,7 +13,7 @@ from rotra.frontends.agent import Formula, Rule
 from rotra.frontends.terms import Struct, Term, Text, Var, is_ground, parse_ground, show, unify
 from rotra.lowering.mind import DriverModel, legal_acts
 from rotra.lowering.query import holds, solve
-from rotra.origins import Origin
+from rotra.origins import NOWHERE, Origin
 from rotra.system.expr import FALSE, TRUE, Expr, conj, const, disj, eq, negate, ref
 from rotra.system.transition import Definition, Part
 
@@ -41,22 +41,27 @@ class Adviser:
     meanings: dict[str, list[Rule]] = field(default_factory=dict)
     clashes: dict[tuple[str, str], Expr] = field(default_factory=dict)
 
-    def define(self, name: str, expr: Expr, origin: Origin = Origin("")) -> Expr:
+    def define(self, name: str, expr: Expr, origin: Origin = NOWHERE) -> Expr:
         name += self.driver.suffix
         self.definitions.setdefault(name, Definition(name, expr, origin))
         return ref(name)
 
     def advise(self) -> None:
-        """Define `rule:<id>` for every rule and `advised:<label>:<action>` for every directive."""
+        """Define `rule:<id>` for every rule that can apply here, and `advised:<label>:<action>` for every directive of one."""
+        applies: dict[str, bool] = {}
         for rule in self.advice:
             if rule.head.name != "rule_of" or len(rule.head.args) != 3:
                 continue
             identity, label, action = rule.head.args
             name = _plain(identity)
-            if f"rule:{name}{self.driver.suffix}" not in self.definitions:
-                origin = self.rules.get(name, rule.origin)
-                self.define(f"rule:{name}", holds(rule.body, {}, self.driver.rest), Origin(origin.file, origin.line, f"rule {name}"))
-            self.directives.setdefault(Directive(_plain(label), _plain(action)), []).append(name)
+            if name not in applies:
+                condition = holds(rule.body, {}, self.driver.rest)
+                applies[name] = condition is not FALSE
+                if applies[name]:
+                    origin = self.rules.get(name, rule.origin)
+                    self.define(f"rule:{name}", condition, Origin(origin.file, origin.line, f"rule {name}"))
+            if applies[name]:
+                self.directives.setdefault(Directive(_plain(label), _plain(action)), []).append(name)
         for directive, names in self.directives.items():
             self.define(f"advised:{directive.label}:{directive.action}", disj(*(ref(f"rule:{n}{self.driver.suffix}") for n in names)))
 

@@ -184,8 +184,9 @@ class _World:
         """Is the offset the own cell in every heading?  (In a world that is not square it may be so in some only.)"""
         return all(_offset(self.scenario, (0, 0), h, r, a) == (0, 0) for h in self.headings)
 
-    def everywhere(self) -> list[Cell]:
-        return [(x, y) for y in range(self.scenario.height) for x in range(self.scenario.width)]
+    def everywhere(self) -> Iterable[Cell]:
+        """Where a driver is that perceives anything: off the road it has crashed."""
+        return self.road
 
     def flows(self, cell: Cell, heading: str, flow: str) -> bool:
         absolute = {"ahead": heading, "back": opposite(heading), "right": turned(heading, "right"), "left": turned(heading, "left")}[flow]

@@ -16,9 +16,8 @@ from typing import Any
 import jsonschema
 
 from rotra.diagnostics import Rejected, problem
-from rotra.frontends.rules import shown_path
 from rotra.frontends.terms import Struct, parse_ground
-from rotra.origins import Origin
+from rotra.origins import Origin, shown_path
 
 # rule id -> (paragraph, what the rule says)
 Paragraphs = Mapping[str, tuple[str, str]]
