@@ -9,6 +9,7 @@ In: a Scenario with its instance applied, the percepts that are asked for, the a
 from __future__ import annotations
 
 from collections.abc import Iterable
+from functools import cache
 
 from rotra.frontends.scenario import Beyond, InCells, Overtaken, Scenario, ScriptedCar
 from rotra.frontends.terms import Struct, order, parse_ground, show
@@ -57,22 +58,17 @@ def possible_percepts(scenario: Scenario) -> tuple[str, ...]:
     if scenario.is_open:
         found = set(scenario.percepts)
     else:
-        found = {show(p) for p in _road_percepts(scenario)} | {f"speed({n})" for n in range(scenario.top_speed + 1)}
+        found = {f"speed({n})" for n in range(scenario.top_speed + 1)} | {f"heading({h})" for h in HEADINGS}
         found |= {f"limit({scenario.limit})", f"drives({scenario.drives})", f"task({scenario.driver.task})"}
-        found |= {f"heading({h})" for h in HEADINGS}
-        for r, a in _window(scenario):
-            if scenario.traffic:
-                found.add(f"car({r},{a})")
-            for light in scenario.lights:
-                found |= {f"light({r},{a},{colour})" for colour, _ in light.cycle}
-                found.add(f"stop_line({r},{a})")
+        found |= {f"car({r},{a})" for r, a in _window(scenario) if scenario.traffic}
+        colours = {light.name: {colour for colour, _ in light.cycle} for light in scenario.lights}
+        for text in frozenset().union(*views(scenario)):
+            place, _, light = text.removesuffix(")").rpartition(",")
+            found |= {f"{place},{colour})" for colour in colours[light]} if text.startswith("light(") else {text}
     return tuple(sorted(found, key=lambda t: (parse_ground(t).name, order(parse_ground(t)))))
 
 
-def _road_percepts(scenario: Scenario) -> Iterable[Struct]:
-    return (Struct("road", (r, a, Struct(f))) for r, a in _window(scenario) for f in RELATIVE)
-
-
+@cache
 def views(scenario: Scenario) -> tuple[frozenset[str], ...]:
     """What the place of a car alone decides: for each cell and heading the percepts of road and lines, and `light(R,A,Name)`
     for the places of lights.  No two of them are seen at once; an open scenario has none."""

@@ -82,7 +82,7 @@ def run_campaign(wanted: Wanted, on_done: Callable[[str, int, int], None]) -> Re
     answers: dict[int, tuple[tuple[Verdict, ...], dict[str, float]]] = {}
     # models are trees without cycles: looking for cycles among their many nodes finds nothing and takes a tenth of the time
     with ProcessPoolExecutor(max_workers=min(wanted.jobs, len(pairs)), initializer=gc.disable) as pool:
-        todo = {pool.submit(_prove, d, s, law, _applying(properties, s), wanted.timeout, wanted.output is not None): n for n, (d, s) in enumerate(pairs)}
+        todo = {pool.submit(_prove, d, s, law, _applying(properties, s), wanted.timeout, wanted.output is not None): n for n, (d, s) in _hardest_first(pairs)}
         for done, future in enumerate(as_completed(todo), start=1):
             number = todo[future]
             answers[number] = future.result()
@@ -102,6 +102,11 @@ def run_campaign(wanted: Wanted, on_done: Callable[[str, int, int], None]) -> Re
     if wanted.output is not None:
         _write(wanted.output, result, traces)
     return result
+
+
+def _hardest_first(pairs: list[tuple[Driver, Scenario]]) -> list[tuple[int, tuple[Driver, Scenario]]]:
+    """So that at the end no worker waits for a long proof that another one has just begun."""
+    return sorted(enumerate(pairs), key=lambda pair: (-len(pair[1][1].traffic), -len(pair[1][1].percepts)))
 
 
 def _properties(wanted: Wanted, law: Law) -> tuple[Property, ...]:
