@@ -179,6 +179,17 @@ def is_invariant(bound: Bound) -> Expr | None:
     return None
 
 
+def promised(bound: Bound) -> Expr | None:
+    """What must come about at last: b of `eventually b`, `always eventually b`, `always (a implies eventually b)`."""
+    if isinstance(bound, Temporal) and bound.op == "always":
+        bound = bound.args[0]
+        if isinstance(bound, Temporal) and bound.op == "implies" and isinstance(bound.args[0], State):
+            bound = bound.args[1]
+    if isinstance(bound, Temporal) and bound.op == "eventually" and isinstance(bound.args[0], State):
+        return bound.args[0].expr
+    return None
+
+
 def negation(bound: Bound) -> Bound:
     return _combine("not", [bound])
 

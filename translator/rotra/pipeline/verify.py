@@ -10,7 +10,7 @@ from __future__ import annotations
 import tempfile
 import time
 from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Any
 
@@ -18,11 +18,11 @@ from rotra.emitters.smv import Names, Specification, emit_smv, name_everything, 
 from rotra.engines import places
 from rotra.engines.nusmv import Answers, Check, EngineFailed, Holds, Unknown, Violated, check_model
 from rotra.frontends.properties import Property
-from rotra.lowering.atoms import Bound, Impossible, State, bind, expressions, hollow, is_invariant, negation, to_ctl, to_ltl
+from rotra.lowering.atoms import Bound, Impossible, State, bind, expressions, hollow, is_invariant, negation, promised, to_ctl, to_ltl
 from rotra.lowering.model import Model
 from rotra.lowering.trace import trace_steps
 from rotra.lowering.words import Words
-from rotra.system.expr import Expr, Value, negate
+from rotra.system.expr import Expr, Value, conj, negate
 
 # an engine that finds a contradiction in the model itself answers nothing about any property
 BROKEN = "the model has no initial state, or a state without successor, so nothing can be concluded"
@@ -45,7 +45,10 @@ class Verdict:
 
 @dataclass(slots=True)
 class Question:
-    """What is asked of the engine about one property: check names by role."""
+    """What is asked of the engine about one property: check names by role.
+
+    `enough`: if one of these holds so does the main one, `slow`, which is asked only if none does.
+    """
 
     property: Property
     bound: Bound | None
@@ -54,6 +57,8 @@ class Question:
     hollow: list[tuple[str, str]] = field(default_factory=list)
     fair: list[str] = field(default_factory=list)
     witness: str = ""
+    enough: list[str] = field(default_factory=list)
+    slow: Specification | None = None
 
 
 def verify_model(model: Model, properties: Sequence[Property], timeout: float, witnesses: bool, timings: dict[str, float]) -> tuple[Verdict, ...]:
@@ -70,6 +75,14 @@ def verify_model(model: Model, properties: Sequence[Property], timeout: float, w
         file = Path(folder) / "model.smv"
         file.write_text(emit_smv(system, model.scenario.id, specifications, names).text)
         answers = check_model(places.nusmv(), file, checks, timeout)
+        for q in questions:
+            if any(isinstance(answers.checks[e], Holds) for e in q.enough):
+                answers = replace(answers, checks={**answers.checks, q.main: Holds()}, seconds={**answers.seconds, q.main: sum(answers.seconds.get(e, 0.0) for e in q.enough)})
+        slow = [q.slow for q in questions if q.slow is not None and q.main not in answers.checks]
+        if slow:
+            file.write_text(emit_smv(system, model.scenario.id, slow, names).text)
+            more = check_model(places.nusmv(), file, [Check(s.name, s.kind, True) for s in slow], max(1.0, timeout - (time.monotonic() - lowered)))
+            answers = replace(answers, checks={**answers.checks, **more.checks}, seconds={**answers.seconds, **more.seconds})
     timings["solve"] = timings.get("solve", 0) + time.monotonic() - lowered
     begun = time.monotonic()
     verdicts = tuple(_verdict(q, answers, names, model) for q in questions)
@@ -144,7 +157,13 @@ def _specify(questions: list[Question], names: Names, words: Words, witnesses: b
                 claim = f"(({' & '.join(f'(G F ({write(e)}))' for e in fair)}) -> ({claim}))"
             # under assumptions always in LTL: its tableau is small, and fair CTL would seek fair paths in states never reached
             branching = None if fair else to_ctl(q.bound, write)
-            ask(q.main, "ltl" if branching is None else "ctl", branching or claim, True)
+            goal = promised(q.bound) if fair else None
+            if goal is not None:
+                # each time the assumption holds, the next moment brings what is promised, if it is not there yet
+                q.enough = [ask(f"{q.main}_enough{i}", "ctl", f"AG ({write(conj(e, negate(goal)))} -> AX {write(goal)})", False) for i, e in enumerate(fair)]
+                q.slow = Specification(q.main, "ltl", claim)
+            else:
+                ask(q.main, "ltl" if branching is None else "ctl", branching or claim, True)
         q.fair = [ask(f"{q.main}_fair{i}", "ctl", f"AG EF ({write(e)})", False) for i, e in enumerate(fair)]
         for i, (what, b) in enumerate(hollow(q.property.formula, words)):
             q.hollow.append((never(f"{q.main}_live{i}", b, False), what))
