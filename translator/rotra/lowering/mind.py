@@ -27,6 +27,8 @@ MAX_BELIEFS = 2000
 # of each of these percepts the car has one at a time: the last argument is a function of the others
 FUNCTIONAL = ("speed", "limit", "heading", "drives", "task", "light")
 START, RESTLESS = "start", "restless"
+# before the first step; not the mind that has given up everything, which gets no initial goals
+FIRST = Control(feedback=(-1,))
 
 
 @dataclass(frozen=True, slots=True)
@@ -265,7 +267,7 @@ class _Build:
     # ---- exploration ----------------------------------------------------------------------------------------------
 
     def run(self) -> DriverModel:
-        start = Control()
+        start = FIRST
         self.minds[start] = START
         todo, leaves = [start], []
         at = var(self.own("at"))
@@ -314,6 +316,7 @@ class _Build:
 
     def begin(self, rest: Control, first: bool) -> Control:
         """The control at the start of a step: last step's acts have their results, percept events are queued."""
+        rest = Control() if first else rest
         events = list(rest.events)
         if first:
             # Jason adds what it finds at the start from the last to the first

@@ -8,6 +8,7 @@ In: names and constants.  Out: `Expr`.  Left to others: SMV text (emitters/smv.p
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Mapping
+from functools import cache
 from typing import Any
 
 Value = bool | int | str
@@ -238,7 +239,7 @@ def evaluate(e: Expr, state: Mapping[str, Value], definitions: Mapping[str, Expr
             case "const":
                 result = node.args[0]
             case "var" | "ref":  # what is a variable in one world may be a constant definition in another
-                result = state[node.args[0]] if node.args[0] in state else value(definitions[node.args[0]])
+                result = state[node.args[0]] if node.args[0] in state else defined(node)
             case "not":
                 result = not value(node.args[0])
             case "and":
@@ -256,7 +257,25 @@ def evaluate(e: Expr, state: Mapping[str, Value], definitions: Mapping[str, Expr
         done[node] = result
         return result
 
+    def defined(name: Expr) -> Any:
+        """Definitions build on one another thousands deep: what is needed first is found first, without recursion."""
+        todo = [name]
+        while todo:
+            expr = definitions[todo[-1].args[0]]
+            needed = [r for r in _names_in(expr) if r not in done and r.args[0] not in state and r.args[0] in definitions]
+            if needed:
+                todo += needed
+            else:
+                done[todo.pop()] = value(expr)
+        return done[name]
+
     return value(e)
+
+
+@cache
+def _names_in(e: Expr) -> tuple[Expr, ...]:
+    """The variables and definitions that the expression itself speaks of."""
+    return tuple(part for part in walk([e]) if part.op in ("var", "ref"))
 
 
 _SYMBOL = {"eq": "=", "lt": "<", "le": "<=", "add": "+", "sub": "-", "mod": "mod", "and": "&", "or": "|"}
