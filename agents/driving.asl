@@ -9,6 +9,10 @@
 
 heeded(Action) :- heeds(Label) & advised(Label, Action).
 
+// the way back to the nearside, in the word of either side of the road
+called_back :- heeded(move_left).
+called_back :- heeded(move_right).
+
 // ---- the road, as far as it can be driven ---------------------------------------------------------------------------
 
 cells(3). cells(2). cells(1).          // fastest first
@@ -90,7 +94,7 @@ due :- worth_overtaking.
 // ---- moving on ------------------------------------------------------------------------------------------------------
 
 @keep_in
-+!proceed : heeded(move_left) & back_in(Side) <- change_lane(Side, 1).
++!proceed : called_back & back_in(Side) <- change_lane(Side, 1).
 @proceed
 +!proceed : pace(N) <- forward(N).
 @hold
@@ -118,7 +122,7 @@ due :- worth_overtaking.
 -!overtake <- !ahead.
 
 @call_off
-+!pull_out : heeded(cancel_overtaking) | heeded(avoid_overtaking) | heeded(move_left) <- .fail.
++!pull_out : heeded(cancel_overtaking) | heeded(avoid_overtaking) | called_back <- .fail.
 @pull_out
 +!pull_out : offside(Side) & free_lane(Side, N) <- change_lane(Side, N).
 
@@ -137,7 +141,7 @@ due :- worth_overtaking.
 +!get_past.
 
 @return
-+!return_to_lane : heeded(move_left) & back_in(Side) <- change_lane(Side, 1).
++!return_to_lane : called_back & back_in(Side) <- change_lane(Side, 1).
 @stay_out
 +!return_to_lane.
 
@@ -149,7 +153,7 @@ due :- worth_overtaking.
 +!turn_left <- !turn_off(left).
 
 @keep_in_first
-+!turn_off(Side) : heeded(move_left) & back_in(In) <- change_lane(In, 1); !turn_off(Side).
++!turn_off(Side) : called_back & back_in(In) <- change_lane(In, 1); !turn_off(Side).
 @turn
 +!turn_off(Side) : junction(Side, 0) & not held(0) & gap(Side) & corner(Side, N) <- turn(Side, N); +turned(Side).
 @await_gap

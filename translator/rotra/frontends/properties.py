@@ -9,7 +9,7 @@ from __future__ import annotations
 import difflib
 import json
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import lru_cache
 from pathlib import Path
 from typing import Any
@@ -33,6 +33,8 @@ WORDS: Mapping[str, tuple[int, ...]] = {
 HEADINGS = ("north", "east", "south", "west")
 SETS = ("beliefs", "intentions", "actions", "cars", "lights")
 VERDICTS = ("holds", "violated", "vacuous")
+# the rules that the shipped catalogue speaks of
+CATALOGUE_RULES = PROJECT / "rules" / "uk"
 
 
 @dataclass(frozen=True, slots=True)
@@ -101,16 +103,24 @@ def load_properties(given: str | Path | None, base: RuleBase) -> tuple[Property,
             found += shape
             continue
         known = {r.id for r in base.rules}
-        # the catalogue that ships is written for the rules that ship: another base may have other ones, or lack some
-        ours = file not in shipped or real_path(base.folder).resolve() == PROJECT / "rules" / "uk"
+        # the catalogue that ships is written for one rule base: another may have other rules and words, or lack some
+        ours = file not in shipped or real_path(base.folder).resolve() == CATALOGUE_RULES
+        elsewhere = file in shipped and not base.ontology.imported_from and base.name != CATALOGUE_RULES.name
         for node in root:
             read = _property(node, base, known if ours else None, found)
+            if elsewhere:
+                read = _under_another_law(read)
             if any(p.id == read.id for p in loaded):
                 found.append(problem("PR101", node.at("id").origin(), f"the property {read.id} is there twice", "give it another id"))
             loaded.append(read)
     if found:
         raise Rejected(found)
     return tuple(loaded)
+
+
+def _under_another_law(wanted: Property) -> Property:
+    """What one law makes a driver do says nothing of another; to the requirements every driver is held."""
+    return replace(wanted, expect=dict.fromkeys(wanted.expect, "holds") if wanted.requirement else {})
 
 
 def _at(root: Node, path: list[Any]) -> Node:
@@ -128,7 +138,7 @@ def _property(node: Node, base: RuleBase, known: set[str] | None, found: list[Di
     def formula(at: Node | None) -> Formula:
         if at is None:
             return Formula("atom", ("crashed",))
-        return _formula(str(at.value), at.origin(), base, found)
+        return _formula(str(at.value), at.origin(), None if known is None else base, found)
 
     cites = tuple(str(n.value) for n in node.get("cites") or ())
     for cited in cites:
@@ -149,7 +159,8 @@ def _property(node: Node, base: RuleBase, known: set[str] | None, found: list[Di
     )
 
 
-def _formula(text: str, origin: Origin, base: RuleBase, found: list[Diagnostic]) -> Formula:
+def _formula(text: str, origin: Origin, base: RuleBase | None, found: list[Diagnostic]) -> Formula:
+    """Without a base the terms may be anybody's: one that no rule base here has cannot come true, and lowering says so."""
     try:
         tree = _parser().parse(text)
     except UnexpectedInput as error:
@@ -248,7 +259,7 @@ def _domain(tree: Any) -> Any:
     return tuple(_term(c) for c in tree.children)
 
 
-def _check(formula: Formula, origin: Origin, base: RuleBase, found: list[Diagnostic]) -> None:
+def _check(formula: Formula, origin: Origin, base: RuleBase | None, found: list[Diagnostic]) -> None:
     """Known words with the right number of arguments; terms of the ontology where a word asks for one."""
     if formula.op == "forall":
         if isinstance(formula.args[1], str) and formula.args[1] not in SETS:
@@ -270,7 +281,16 @@ def _check(formula: Formula, origin: Origin, base: RuleBase, found: list[Diagnos
             _check(part, origin, base, found)
 
 
-def _terms(word: str, terms: list[Term], origin: Origin, base: RuleBase, found: list[Diagnostic]) -> None:
+def _terms(word: str, terms: list[Term], origin: Origin, base: RuleBase | None, found: list[Diagnostic]) -> None:
+    if base is not None:
+        _ontology_terms(word, terms, origin, base, found)
+    if word in ("does", "percept"):
+        _literal(terms[0], "act" if word == "does" else "percept", ACTS if word == "does" else PERCEPTS, origin, found)
+    if word == "heading" and isinstance(terms[0], Struct) and show(terms[0]) not in HEADINGS:
+        found.append(problem("PR109", origin, f"there is no heading {show(terms[0])}", f"the headings are {', '.join(HEADINGS)}"))
+
+
+def _ontology_terms(word: str, terms: list[Term], origin: Origin, base: RuleBase, found: list[Diagnostic]) -> None:
     ontology = base.ontology
     asked: list[tuple[int, Mapping[str, Any], str]] = {"believes": [(0, ontology.beliefs, "belief")], "intends": [(0, ontology.intentions, "intention")]}.get(word, [])
     if word in ("advised", "ignored"):
@@ -281,10 +301,6 @@ def _terms(word: str, terms: list[Term], origin: Origin, base: RuleBase, found: 
             if isinstance(term, Struct) and term.name not in known:
                 near = difflib.get_close_matches(term.name, list(known), 1)
                 found.append(problem("PR106", origin, f"{term.name} is no {kind} of the rule base {base.name}", f"did you mean {near[0]}?" if near else "see its ontology.yaml"))
-    if word in ("does", "percept"):
-        _literal(terms[0], "act" if word == "does" else "percept", ACTS if word == "does" else PERCEPTS, origin, found)
-    if word == "heading" and isinstance(terms[0], Struct) and show(terms[0]) not in HEADINGS:
-        found.append(problem("PR109", origin, f"there is no heading {show(terms[0])}", f"the headings are {', '.join(HEADINGS)}"))
 
 
 def _literal(term: Term, kind: str, known: Mapping[str, int], origin: Origin, found: list[Diagnostic]) -> None:

@@ -55,10 +55,13 @@ class Words:
 
     def advised(self, label: Term, action: Term) -> Answer:
         found = disj(*(self.adviser.advised(d) for d in self.adviser.matching(label, action)))
-        return _expr(found, f"no rule advises {show(label)} {show(action)}")
+        return _expr(found, f"no rule advises {show(label)} {show(action)} here")
 
     def ignored(self, label: Term, action: Term | None) -> Answer:
-        matching = [d for d in self.adviser.matching(label, action) if self.adviser.shown(d.action)]
+        found = self.adviser.matching(label, action)
+        matching = [d for d in found if self.adviser.shown(d.action)]
+        if not found:
+            return Impossible(f"no rule advises {show(label)} {'_' if action is None else show(action)} here")
         if not matching:
             return Impossible("no act can go against such a directive here")
         return disj(*(self.adviser.ignored(d) for d in matching))
