@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import hashlib
 import json
+import os
 import re
 from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
@@ -60,7 +61,7 @@ def parse_agents(files: Sequence[Path], timeout: float = 60) -> tuple[Agent, ...
                 wrong.append(problem("AG100", Origin(e.get("file") or str(file), max(0, e.get("line") or 0)), f"Jason's parser refuses this: {_short(e['message'])}", "mend the syntax"))
             else:
                 stored[file].parent.mkdir(parents=True, exist_ok=True)
-                fresh = stored[file].with_suffix(".new")
+                fresh = stored[file].with_suffix(f".{os.getpid()}")
                 fresh.write_text(json.dumps(placed(entry["ast"])))
                 fresh.replace(stored[file])
         if wrong:

@@ -34,7 +34,7 @@ from rotra.frontends.terms import (
     variables,
     walk_to,
 )
-from rotra.origins import Origin
+from rotra.origins import NOWHERE, Origin
 from rotra.system.expr import FALSE, TRUE, Expr, conj, disj, negate
 
 Indicator = tuple[str, int]
@@ -50,6 +50,7 @@ class Solution:
     bound: Substitution
     guard: Expr
     unordered: frozenset[Struct] = frozenset()
+    origin: Origin = NOWHERE  # the rule by which it was found
 
 
 @dataclass(frozen=True, slots=True)
@@ -124,8 +125,8 @@ def _literal(literal: Term, bound: Substitution, mind: Mind, depth: int) -> Iter
     rules = mind.knowledge.rules.get(indicator(asked), ())
     if is_ground(asked) and any(r.body.op != "true" for r in rules):
         if asked not in mind.memo:
-            guard = disj(*(s.guard for s in _answers(asked, mind, depth)))
-            mind.memo[asked] = mind.name(asked, guard, rules[0].origin)
+            found = _answers(asked, mind, depth)
+            mind.memo[asked] = mind.name(asked, disj(*(s.guard for s in found)), _together(s.origin for s in found))
         if mind.memo[asked] is not FALSE:
             yield Solution(bound, mind.memo[asked])
         return
@@ -202,7 +203,15 @@ def _candidates(asked: Struct, bound: Substitution, mind: Mind, depth: int) -> I
                 value = resolve(Var(name), found.bound)
                 if not isinstance(value, Var):
                     extended[name] = value
-            yield Solution(extended, found.guard, found.unordered)
+            yield Solution(extended, found.guard, found.unordered, rule.origin)
+
+
+def _together(origins: Iterable[Origin]) -> Origin:
+    """One place that names them all."""
+    places = list(dict.fromkeys(o for o in origins if o is not NOWHERE))
+    if len(places) == 1:
+        return places[0]
+    return Origin(" and ".join(f"{o.what} {o.file}:{o.line}".strip() for o in places))
 
 
 def _fitting(asked: Struct, knowledge: Knowledge) -> Iterable[Rule]:

@@ -6,6 +6,8 @@ In: names or paths.  Out: loaded, checked inputs.  Errors: `Rejected` with a cod
 from __future__ import annotations
 
 import difflib
+import hashlib
+import os
 import re
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
@@ -76,9 +78,12 @@ def load_law(given: str) -> Law:
     text = emit_advice(base)
     folder = places.PROJECT / ".build" / "advice"
     folder.mkdir(parents=True, exist_ok=True)
-    file = folder / f"{base.name}.asl"
-    if not file.is_file() or file.read_text(encoding="utf-8") != text:
-        file.write_text(text, encoding="utf-8")
+    # named by what it holds: two commands at once may ask for two versions of one base
+    file = folder / f"{hashlib.sha256(text.encode()).hexdigest()[:32]}.asl"
+    if not file.is_file():
+        fresh = file.with_suffix(f".{os.getpid()}")
+        fresh.write_text(text, encoding="utf-8")
+        fresh.replace(file)
     (parsed,) = parse_agents([file])
     lines = text.splitlines()
     advice = tuple(replace(rule, origin=_written_in(lines, rule.origin)) for rule in parsed.knowledge)
