@@ -441,17 +441,18 @@ def _compact(cells: dict[tuple[str, str, str], Any], scenarios: list[str], drive
 @click.option("--steps", default=40, show_default=True, type=click.IntRange(1, 10_000_000))
 @instance_published
 @rules_option
+@click.option("--then", "changes", multiple=True, metavar="RULES@STEP", help="From that step on other rules advise, as in de@20; may be repeated.")
 @click.option("--seed", type=int, default=None, help="Chance for all that the instance leaves open.")
 @click.option("--until", type=click.Choice(["crashed", "finished"]), default=None)
 @click.option("--trace", "trace_file", type=click.Path(path_type=Path), help="Write the trace as JSON.")
 @click.option("--watch", is_flag=True, help="Step through the run on the screen.")
 @as_json
 @answered
-def run(agent: str, scenario: str, steps: int, instance: str, rules: str, seed: int | None, until: str | None, trace_file: Path | None, watch: bool, as_json: bool) -> int:
+def run(agent: str, scenario: str, steps: int, instance: str, rules: str, changes: tuple[str, ...], seed: int | None, until: str | None, trace_file: Path | None, watch: bool, as_json: bool) -> int:
     """Drive an agent in Jason."""
-    from rotra.pipeline.drive import drive, write_trace
+    from rotra.pipeline.drive import drive, read_changes, write_trace
 
-    trace = drive(agent, scenario, steps, instance, rules, seed, until)
+    trace = drive(agent, scenario, steps, instance, rules, seed, until, read_changes(changes, steps))
     if trace_file is not None:
         write_trace(trace_file, trace)
     if as_json:

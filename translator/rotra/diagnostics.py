@@ -86,6 +86,7 @@ CODES: dict[str, str] = {
     "TR101": "a trace that is not JSON",
     "TR102": "a trace with a key missing or of the wrong type",
     "TR103": "a trace that cannot be replayed",
+    "TR104": "a change of rules in a run that cannot be made",
 }
 
 

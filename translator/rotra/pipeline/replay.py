@@ -15,7 +15,7 @@ from rotra.lowering.model import build_model
 from rotra.lowering.trace import trace_steps
 from rotra.lowering.walk import walk
 from rotra.origins import Origin
-from rotra.pipeline.drive import run_in_jason
+from rotra.pipeline.drive import load_changes, run_in_jason
 from rotra.pipeline.inputs import check_driver, load_drivers, load_law
 
 # what must agree, step by step; the order is the order in which a difference is blamed
@@ -38,7 +38,8 @@ def replay_trace(trace: Mapping[str, Any]) -> dict[str, Any] | None:
         job["percepts"] = [s["percepts"] for s in path]
     else:
         job["start"] = _start(path[0], world)
-    answer = run_in_jason(driver, law, world, len(path), job)
+    later = load_changes([(n, s["rules"]) for n, s in enumerate(path, start=1) if "rules" in s])
+    answer = run_in_jason(driver, law, world, len(path), job, later)
     parted = first_difference(path, answer["steps"])
     if parted is not None:
         number, what = parted

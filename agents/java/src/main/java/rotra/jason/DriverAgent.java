@@ -35,6 +35,9 @@ public final class DriverAgent extends Agent {
     private static final long serialVersionUID = 1L;
     static final String RULES = "rules";
     private static final String FILE = "file:";
+    /** What a rule base adds to an agent. */
+    private static final List<PredicateIndicator> ADVICE = List.of(new PredicateIndicator("advised", 2), new PredicateIndicator("advised_next", 2),
+            new PredicateIndicator("rule_of", 3), new PredicateIndicator("contradicted", 2), new PredicateIndicator("intends", 1));
 
     /** As Jason does, but the file is named in full, so that includes are found beside it and plans say where they stand. */
     @Override
@@ -51,9 +54,24 @@ public final class DriverAgent extends Agent {
     public void loadKqmlPlans() throws Exception {
         String rules = option(this, RULES);
         if (rules != null) {
-            try (Reader text = Files.newBufferedReader(Path.of(rules), StandardCharsets.UTF_8)) {
-                parseAS(text, Path.of(rules).getFileName().toString());
-            }
+            parseRules(Path.of(rules));
+        }
+    }
+
+    private void parseRules(Path rules) throws Exception {
+        try (Reader text = Files.newBufferedReader(rules, StandardCharsets.UTF_8)) {
+            parseAS(text, rules.getFileName().toString());
+        }
+    }
+
+    /** From now on these rules advise, and none of those before.  The agent's own rules and beliefs stay. */
+    void obey(Path rules) {
+        ADVICE.forEach(getBB()::abolish);
+        try {
+            parseRules(rules);
+            addInitialBelsInBB();
+        } catch (Exception e) {
+            throw new IllegalStateException("the rules " + rules + " cannot be read", e);
         }
     }
 

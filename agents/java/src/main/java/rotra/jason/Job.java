@@ -1,7 +1,9 @@
 package rotra.jason;
 
 import java.util.ArrayList;
+import java.util.HashMap;
 import java.util.List;
+import java.util.Map;
 import java.util.Random;
 import javax.json.Json;
 import javax.json.JsonArray;
@@ -16,12 +18,15 @@ import rotra.world.Start;
 /**
  * A run that is asked for: which agent, under which rules, in which world, with which choices of the world.
  *
- * <p>In: {@code {"agent", "rules", "world", "start", "seed", "choices", "percepts", "steps", "until", "trace", "cap"}}, all but the first
- * three may be left out.  `choices`: per step who hesitates; `percepts`: per step what is sensed, in an open scenario.  What is
+ * <p>In: {@code {"agent", "rules", "world", "start", "seed", "choices", "percepts", "steps", "until", "trace", "cap",
+ * "then"}}, all but the first three may be left out.  `then`: from which step on which other rules hold.  `choices`: per step who hesitates; `percepts`: per step what is sensed, in an open scenario.  What is
  * not given comes from the seed; without a seed the start is the published one and nobody hesitates.
  */
 record Job(String agent, String rules, Scenario world, Start start, Random chance, List<List<String>> choices, List<List<Percept>> percepts,
-           int steps, String until, boolean trace, int cap) {
+           int steps, String until, boolean trace, int cap, Map<Integer, OtherRules> then) {
+
+    /** Rules that take the place of those before: their name in the trace, and their file. */
+    record OtherRules(String name, String file) { }
 
     static final int CAP = 500;
 
@@ -35,7 +40,16 @@ record Job(String agent, String rules, Scenario world, Start start, Random chanc
         return new Job(json.getString("agent"), json.getString("rules"), world, start, choice,
                 given(json, "choices") ? lists(json.getJsonArray("choices")) : null,
                 given(json, "percepts") ? lists(json.getJsonArray("percepts")).stream().map(step -> step.stream().map(Percept::parse).toList()).toList() : null,
-                json.getInt("steps", 40), given(json, "until") ? json.getString("until") : "", json.getBoolean("trace", true), json.getInt("cap", CAP));
+                json.getInt("steps", 40), given(json, "until") ? json.getString("until") : "", json.getBoolean("trace", true), json.getInt("cap", CAP),
+                given(json, "then") ? changes(json.getJsonArray("then")) : Map.of());
+    }
+
+    private static Map<Integer, OtherRules> changes(JsonArray json) {
+        Map<Integer, OtherRules> out = new HashMap<>();
+        for (JsonObject change : json.getValuesAs(JsonObject.class)) {
+            out.put(change.getInt("at"), new OtherRules(change.getString("name"), change.getString("rules")));
+        }
+        return out;
     }
 
     private static boolean given(JsonObject json, String key) {

@@ -6,6 +6,7 @@ import jason.asSemantics.Option;
 import jason.asSemantics.TransitionSystem;
 import jason.asSyntax.Atom;
 import jason.asSyntax.Literal;
+import java.nio.file.Path;
 import java.util.ArrayList;
 import java.util.Collection;
 import java.util.HashMap;
@@ -77,9 +78,12 @@ final class Ride {
         return null;
     }
 
-    /** A new step: the world chooses, the driver senses. */
+    /** A new step: the rules may be other ones from now on, the world chooses, the driver senses. */
     private Collection<Literal> sense() {
         step++;
+        if (job.then().containsKey(step)) {
+            ((DriverAgent) mind.getAg()).obey(Path.of(job.then().get(step).file()));
+        }
         choose();
         seen = world.perceive(driver);
         List<Literal> percepts = new ArrayList<>(seen.size());
@@ -179,6 +183,9 @@ final class Ride {
         reader.read(legal ? act : Act.WAIT, thinks(), out);
         if (fault != null) {
             out.add("restless", true);
+        }
+        if (job.then().containsKey(step)) {
+            out.add("rules", job.then().get(step).name());
         }
         if (step == 1) {
             out.add("start", job.startJson());
