@@ -502,7 +502,8 @@ def explain(trace: Path, full: bool, rules: str) -> None:
 
     document = read_trace(trace)
     base = load_rule_base(document.get("rules") or rules)
-    say(tell(document, full, {r.id: (str(r.paragraph), r.says) for r in base.rules}, better_act(base), partial(silent_rules, base)))
+    every = [*(load_rule_base(step["rules"]) for step in document["steps"] if "rules" in step), base]
+    say(tell(document, full, {r.id: (str(r.paragraph), r.says) for one in every for r in one.rules}, better_act(base), partial(silent_rules, base)))
 
 
 @main.command()

@@ -37,6 +37,7 @@ _STEP = {
     "required": ["step"],
     "properties": {
         "step": {"type": "integer"},
+        "rules": {"type": "string"},
         "lights": {"type": "object", "additionalProperties": {"type": "string"}},
         "cars": {"type": "object", "additionalProperties": _CAR},
         "percepts": _TEXTS,
@@ -127,6 +128,8 @@ def explain(trace: Mapping[str, Any], full: bool, rules: Paragraphs | None = Non
         lines.append("")
         if loop == number:
             lines.append("-- from here on it repeats --")
+        if step.get("rules"):
+            lines.append(f"-- from here on the rules are {step['rules']} --")
         lines += story.step(step, before)
         before = step
     lines += ["", *_end(steps, loop, story)]
