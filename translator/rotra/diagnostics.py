@@ -31,6 +31,7 @@ CODES: dict[str, str] = {
     "SC109": "no such percept",
     "SC110": "a world text that cannot be read",
     "SC111": "a line of a world text that is passed over",
+    "SC112": "a mirror of a mirror",
     "RB100": "no such rule base",
     "RB101": "a word that the ontology does not know",
     "RB102": "two rules with one id",

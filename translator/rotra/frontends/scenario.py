@@ -20,6 +20,8 @@ import jsonschema
 
 from rotra.diagnostics import Diagnostic, Rejected, problem
 from rotra.engines.places import PROJECT
+from rotra.frontends.mirror import mirrored_term, other_side
+from rotra.frontends.terms import parse_ground, show
 from rotra.frontends.textworld import with_text_world
 from rotra.frontends.yamlfile import Node, load_yaml
 from rotra.origins import Origin
@@ -113,6 +115,7 @@ class Scenario:
     percept_exclusions: tuple[tuple[str, ...], ...]
     origin: Origin
     warnings: tuple[Diagnostic, ...] = ()
+    mirrors: str = ""  # the scenario that this is in the mirror
 
     @property
     def is_open(self) -> bool:
@@ -131,14 +134,14 @@ def shipped_folder() -> Path:
     return PROJECT / "model" / "scenarios"
 
 
-def resolve_scenario(given: str) -> Scenario:
-    """A shipped name, or the path of a file.  Errors: SC100."""
-    shipped = shipped_folder() / f"{given}.yaml"
-    if re.fullmatch(r"\w+", given) and shipped.is_file():
-        return load_scenario(shipped, given)
+def resolve_scenario(given: str, to_mirror: bool = False) -> Scenario:
+    """A shipped name, of a mirrored world too, or the path of a file.  `to_mirror`: it is to be mirrored.  Errors: SC100."""
+    shipped = {p.stem: p for folder in (shipped_folder() / "mirrored", shipped_folder()) for p in folder.glob("*.yaml")}
+    if given in shipped:
+        return load_scenario(shipped[given], given, to_mirror)
     if Path(given).is_file():
-        return load_scenario(Path(given), given)
-    names = sorted(p.stem for p in shipped_folder().glob("*.yaml"))
+        return load_scenario(Path(given), given, to_mirror)
+    names = sorted(shipped)
     near = difflib.get_close_matches(given, names, 1)
     hint = f"did you mean {near[0]}?" if near else f"shipped are {', '.join(names)}; or give the path of a file"
     raise Rejected([problem("SC100", Origin(given), f"there is no scenario {given!r}", hint)])
@@ -167,14 +170,54 @@ def _schema() -> dict[str, Any]:
     return loaded
 
 
-def load_scenario(path: Path, source: str | None = None) -> Scenario:
+def load_scenario(path: Path, source: str | None = None, to_mirror: bool = False) -> Scenario:
     root = load_yaml(path)
     _check_shape(root)
     warnings: tuple[Diagnostic, ...] = ()
+    if root.get("mirrors") is not None and to_mirror:
+        raise Rejected([problem("SC112", root.at("mirrors").origin(), "a mirrored world is to be mirrored again", "mirror the world that this one names")])
+    if root.get("mirrors") is not None:
+        return _in_the_mirror(root, source or str(path))
     if root.get("text") is not None:
         root, warnings = with_text_world(root)
         _check_shape(root)
     return replace(_Reader(root, source or str(path)).scenario(), warnings=warnings)
+
+
+def _in_the_mirror(root: Node, source: str) -> Scenario:
+    """The world that `mirrors` names, with left and right swapped.  Errors: those of that world."""
+    name = str(root.at("mirrors").value)
+    beside = Path(root.file).parent / name
+    world = resolve_scenario(str(beside) if beside.is_file() else name, to_mirror=True)
+    said = root.get("says")
+    return replace(mirrored_world(world), id=str(root.at("id").value), source=source, says=str(said.value) if said else world.says, origin=root.origin("scenario"), mirrors=world.id)
+
+
+def mirrored_world(world: Scenario) -> Scenario:
+    """The same world in a mirror that stands along the road: traffic drives on the other side, a right turn is a left turn."""
+
+    def cell(at: Cell) -> Cell:
+        return (world.width - 1 - at[0], at[1])
+
+    def cells(at: Varied[Cell]) -> Varied[Cell]:
+        return Varied(cell(at.published), tuple(map(cell, at.all))) if world.rows else at
+
+    def percept(text: str) -> str:
+        return show(mirrored_term(parse_ground(text)))
+
+    swapped = str.maketrans("<>", "><")
+    goal = InCells(tuple(map(cell, world.goal.cells))) if isinstance(world.goal, InCells) else world.goal
+    return replace(
+        world,
+        drives=other_side(world.drives),
+        rows=tuple(row[::-1].translate(swapped) for row in world.rows),
+        lights=tuple(replace(x, at=cell(x.at), stop_line=cell(x.stop_line), faces=other_side(x.faces)) for x in world.lights),
+        driver=replace(world.driver, at=cells(world.driver.at), heading=other_side(world.driver.heading), task=other_side(world.driver.task)),
+        traffic=tuple(replace(c, at=cells(c.at), heading=other_side(c.heading)) for c in world.traffic),
+        goal=goal,
+        percepts=tuple(map(percept, world.percepts)),
+        percept_exclusions=tuple(tuple(map(percept, group)) for group in world.percept_exclusions),
+    )
 
 
 def _check_shape(root: Node) -> None:
@@ -189,7 +232,10 @@ def _check_shape(root: Node) -> None:
         if surplus and isinstance(e.schema.get("additionalProperties"), bool):
             shape += [problem("IO103", node.at(key).origin(), f"{where}: there is no key {key!r} here", hint) for key in surplus]
         elif e.validator == "oneOf" and not path:
-            shape.append(problem("IO103", node.origin(), "a scenario has either `grid` or `text`", 'draw the grid, name a world text, or write grid: "" for an open scenario'))
+            if node.get("mirrors") is not None:
+                shape.append(problem("IO103", node.origin(), "a mirrored scenario says `id`, `says` and `mirrors`, and takes all else from the one it mirrors", "change that one, or draw a world of its own with `grid`"))
+            else:
+                shape.append(problem("IO103", node.origin(), "a scenario has either `grid` or `text`", 'draw the grid, name a world text, or write grid: "" for an open scenario'))
         else:
             shape.append(problem("IO103", node.origin(), f"{where}: {e.message}", hint))
     if shape:

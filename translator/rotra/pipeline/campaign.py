@@ -18,6 +18,7 @@ from pathlib import Path
 from typing import Any
 
 from rotra.diagnostics import Rejected, problem
+from rotra.frontends.mirror import mirrored_property
 from rotra.frontends.properties import Property, expected, load_properties
 from rotra.frontends.scenario import Scenario, instance, resolve_scenario
 from rotra.lowering.model import build_model
@@ -82,7 +83,7 @@ def run_campaign(wanted: Wanted, on_done: Callable[[str, int, int], None]) -> Re
     answers: dict[int, tuple[tuple[Verdict, ...], dict[str, float]]] = {}
     # models are trees without cycles: looking for cycles among their many nodes finds nothing and takes a tenth of the time
     with ProcessPoolExecutor(max_workers=min(wanted.jobs, len(pairs)), initializer=gc.disable) as pool:
-        todo = {pool.submit(_prove, d, s, law, _applying(properties, s), wanted.timeout, wanted.output is not None): n for n, (d, s) in _hardest_first(pairs)}
+        todo = {pool.submit(_prove, d, s, law, _applying(properties, s, law), wanted.timeout, wanted.output is not None): n for n, (d, s) in _hardest_first(pairs)}
         for done, future in enumerate(as_completed(todo), start=1):
             number = todo[future]
             answers[number] = future.result()
@@ -93,7 +94,7 @@ def run_campaign(wanted: Wanted, on_done: Callable[[str, int, int], None]) -> Re
         verdicts, timings = answers[number]
         for phase, seconds in timings.items():
             result.timings[phase] = result.timings.get(phase, 0.0) + seconds
-        for prop, verdict in zip(_applying(properties, scenario), verdicts, strict=True):
+        for prop, verdict in zip(_applying(properties, scenario, law), verdicts, strict=True):
             if verdict.verdict == "violated":
                 verdict = replace(verdict, reason=why_violated(law.base, verdict.steps, verdict.loop))
             rows.append(_row(driver, scenario, wanted, prop, verdict, traces))
@@ -120,8 +121,17 @@ def _properties(wanted: Wanted, law: Law) -> tuple[Property, ...]:
     return tuple(loaded)
 
 
-def _applying(properties: tuple[Property, ...], scenario: Scenario) -> tuple[Property, ...]:
-    return tuple(p for p in properties if not p.scenarios or scenario.id in p.scenarios)
+def _applying(properties: tuple[Property, ...], scenario: Scenario, law: Law) -> tuple[Property, ...]:
+    """The properties asked in a scenario; in a mirrored world those of the world that it mirrors, mirrored too."""
+    return tuple(asked for p in properties if (asked := _asked(p, scenario, law)) is not None)
+
+
+def _asked(wanted: Property, scenario: Scenario, law: Law) -> Property | None:
+    if scenario.id in wanted.scenarios or not (wanted.scenarios or scenario.mirrors):
+        return wanted
+    if scenario.mirrors and (not wanted.scenarios or scenario.mirrors in wanted.scenarios):
+        return mirrored_property(wanted, law.base, scenario.width)
+    return None
 
 
 def _prove(driver: Driver, scenario: Scenario, law: Law, properties: tuple[Property, ...], timeout: float, witnesses: bool) -> tuple[tuple[Verdict, ...], dict[str, float]]:
@@ -133,7 +143,7 @@ def _prove(driver: Driver, scenario: Scenario, law: Law, properties: tuple[Prope
 
 
 def _row(driver: Driver, scenario: Scenario, wanted: Wanted, prop: Property, verdict: Verdict, traces: dict[str, dict[str, Any]]) -> Row:
-    want = expected(prop, driver.name, scenario.id)
+    want = expected(prop, driver.name, scenario.mirrors or scenario.id)
     name: str | None = None
     base = "/".join(re.sub(r"[^A-Za-z0-9_-]+", "_", part) for part in (driver.title, scenario.id, prop.id))
     for kind, steps, loop in (("trace", verdict.steps, verdict.loop), ("witness", verdict.witness, verdict.witness_loop)):
