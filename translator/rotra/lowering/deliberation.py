@@ -111,7 +111,8 @@ class Leaf:
 class Machine:
     """The agent's plans, compiled for look-up, and the sinks for what deliberation finds out on the way.
 
-    `results`: functor-independent test whether an act is legal; `select` records a chosen plan and names its condition.
+    `legal`: can the act be done; `select` records a chosen plan and names its condition; `single`: which belief variables are
+    of a functor of which one belief at a time stands.
     """
 
     agent: Agent
@@ -120,6 +121,7 @@ class Machine:
     legal: Callable[[Struct], bool]
     name: Callable[[Struct, Expr, Origin], Expr]
     select: Callable[[Plan, Expr, int], Expr]
+    single: Mapping[Expr, Indicator] = field(default_factory=dict)
     plans: dict[tuple[str, str, Indicator], list[Plan]] = field(default_factory=dict)
     live: dict[Body, frozenset[str]] = field(default_factory=dict)
     cycle: int = 0
@@ -403,11 +405,15 @@ class Machine:
         for s in self._branch(m, left):
             yield self._done(stack, s)
 
+    def _alone(self, one: object, other: object) -> bool:
+        """Are both conditions that a belief stood when the step began, of a functor of which one at a time stands?"""
+        return one in self.single and self.single[one] == self.single.get(other)  # type: ignore[index, call-overload]
+
     def _exclusive(self, step: Step, held: Mapping[Struct, Expr], m: Moment) -> None:
         pairs = sorted(held.items(), key=lambda i: show(i[0]))
         for i, (a, x) in enumerate(pairs):
             for b, y in pairs[i + 1 :]:
-                if self.solver.possible(conj(m.guard, x, y)):
+                if not self._alone(x, y) and self.solver.possible(conj(m.guard, x, y)):
                     raise Rejected([problem("AG106", step.origin, f"which of {show(a)} and {show(b)} is removed depends on which was added last", "name the belief to remove, or keep one at a time with `-+`")])
 
     def _believe(self, op: str, literal: Struct, stack: Stack, m: Moment, focused: bool, step: Step) -> Moment:
@@ -549,7 +555,7 @@ class Machine:
             for _, _, b, there in found[i + 1 :]:
                 for x in sorted(a, key=show):  # type: ignore[call-overload]
                     for y in sorted(b, key=show):  # type: ignore[call-overload]
-                        if x != y and indicator(x) == indicator(y) and self.solver.possible(conj(path, here, there)):  # type: ignore[arg-type]
+                        if x != y and indicator(x) == indicator(y) and not self._alone(here, there) and self.solver.possible(conj(path, here, there)):  # type: ignore[arg-type]
                             raise Rejected([problem("AG106", at, f"which of {show(x)} and {show(y)} is found first depends on which was added last", "ask for one of them by name, or keep one at a time with `-+`")])
         return [(bound, guard) for bound, guard, _, _ in found]  # type: ignore[misc]
 

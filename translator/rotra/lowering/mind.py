@@ -23,7 +23,7 @@ from rotra.system.solver import Satisfiability
 from rotra.system.transition import Definition, Part, Variable
 
 MAX_MINDS = 3000
-MAX_BELIEFS = 2000
+MAX_ROUNDS = 64
 # of each of these percepts the car has one at a time: the last argument is a function of the others
 FUNCTIONAL = ("speed", "limit", "heading", "drives", "task", "light")
 START, RESTLESS = "start", "restless"
@@ -115,18 +115,24 @@ def lower_driver(agent: Agent, advice: Iterable[Rule], senses: Senses, suffix: s
 def _explored(agent: Agent, advice: tuple[Rule, ...], senses: Senses, suffix: str, single: frozenset[Indicator]) -> DriverModel:
     """`single`: the functors of which one belief at most is taken to stand at rest, as long as that proves to be so."""
     known = tuple(sorted({b for b in _initial_beliefs(agent) if indicator(b) in _dynamic(agent)}, key=show))
-    while True:
+    for _ in range(MAX_ROUNDS):
         build = _Build(agent, advice, senses, known, single, suffix)
         model = build.run()
         found = tuple(sorted(build.instances, key=show))
-        several = build.several()
+        several = build.several() if found == known else frozenset()
         if found == known and not several:
             return model
-        if len(found) > MAX_BELIEFS:
-            worst = max(found, key=lambda b: len(show(b)))
-            raise Rejected([problem("AG110", Origin(agent.file, 1), f"beliefs of the form {worst.name}/{len(worst.args)} grow without end", "keep the counter inside a bound, as in `N < 4`")])
-        known = found
+        known, before = found, known
         single -= several
+    worst = max((b for b in known if b not in before), key=lambda b: len(show(b)), default=known[0])
+    raise Rejected([problem("AG110", _grown(agent, worst), f"beliefs of the form {worst.name}/{len(worst.args)} grow without end, or to more than {MAX_ROUNDS} values one after the other", "keep the counter inside a bound, as in `N < 4`")])
+
+
+def _grown(agent: Agent, belief: Struct) -> Origin:
+    """The first step that adds such a belief."""
+    steps = (s for p in agent.plans for s in steps_of(p.body))
+    adding = (s.origin for s in steps if s.kind in ("add", "add_end", "add_new", "update") and isinstance(s.literal, Struct) and indicator(s.literal) == indicator(belief))
+    return next(adding, Origin(agent.file, 1))
 
 
 def _initial_beliefs(agent: Agent) -> Iterator[Struct]:
@@ -181,7 +187,7 @@ class _Build:
         dynamic = _dynamic(agent)
         by_functor = {k: tuple(v) for k, v in rules.items()}
         self.knowledge = Knowledge(by_functor, {k: tuple(v) for k, v in percepts.items()}, dynamic, self.percept, changing(by_functor, dynamic))
-        self.machine = Machine(agent, self.knowledge, self.solver, lambda act: legal_act(act, senses.top_speed), self.name, self.select)
+        self.machine = Machine(agent, self.knowledge, self.solver, lambda act: legal_act(act, senses.top_speed), self.name, self.select, {self.belief(b): indicator(b) for b in self.known if indicator(b) in self.single})
         self.current = START
 
     # ---- names ----------------------------------------------------------------------------------------------------

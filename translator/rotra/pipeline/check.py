@@ -11,11 +11,13 @@ from rotra.diagnostics import Diagnostic, Rejected, problem
 from rotra.frontends.agent import Agent, Body
 from rotra.frontends.fragment import asked_literals, check_fragment
 from rotra.frontends.rules import RuleBase
+from rotra.frontends.scenario import instance, resolve_scenario
 from rotra.frontends.terms import Struct
-from rotra.lowering.mind import Senses, lower_driver
-from rotra.pipeline.inputs import load_drivers, load_law
+from rotra.lowering.mind import lower_driver
+from rotra.lowering.model import senses_of
+from rotra.pipeline.inputs import load_drivers, load_law, shipped_scenarios
 
-# a lint has no scenario: no act is too long
+# a lint has no scenario of the user's: no act is too long, and what is sensed is what the roads that ship show
 ANY_SPEED = 99
 
 
@@ -25,7 +27,8 @@ def check_agent(agent: str, rules: str) -> tuple[Diagnostic, ...]:
     found: list[Diagnostic] = []
     try:
         check_fragment(driver.agent, ANY_SPEED)
-        lower_driver(driver.agent, law.advice, Senses((), 4, False))
+        for road in shipped_scenarios():
+            lower_driver(driver.agent, law.advice, senses_of(instance(resolve_scenario(road), "all")))
     except Rejected as refusal:
         found += refusal.diagnostics
     found += _directives(driver.agent, law.base)
