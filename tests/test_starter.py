@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import json
+import subprocess
+import sys
 from pathlib import Path
 
 import pytest
@@ -75,3 +77,19 @@ def test_first_comment(tmp_path: Path) -> None:
     assert first_comment(file) == "Says it."
     file.write_text("!go.\n// late\n")
     assert first_comment(file) == ""
+
+
+def test_what_its_readme_says_works(tmp_path: Path) -> None:
+    make_project(tmp_path / "mine")
+    commands = [line.strip().split() for line in (tmp_path / "mine" / "README.md").read_text(encoding="utf-8").splitlines() if line.startswith("    rotra ")]
+    assert [c[1] for c in commands] == ["check", "verify", "run", "explain"]
+    for command in commands:
+        ended = subprocess.run([str(Path(sys.executable).with_name("rotra")), *command[1:]], cwd=tmp_path / "mine", capture_output=True, text=True, timeout=120)
+        assert ended.returncode == 0, ended.stdout + ended.stderr
+    driver = tmp_path / "mine" / "my_driver.asl"
+    text = driver.read_text(encoding="utf-8")
+    assert "held(Line)" in text
+    driver.write_text("\n".join(line for line in text.splitlines() if not ("closed" in line and "held(Line)" in line)), encoding="utf-8")
+    ended = subprocess.run([str(Path(sys.executable).with_name("rotra")), *commands[1][1:]], cwd=tmp_path / "mine", capture_output=True, text=True, timeout=120)
+    assert ended.returncode == 1, ended.stdout + ended.stderr
+    assert list((tmp_path / "mine" / "out" / "traces").glob("**/*.trace.json"))
