@@ -1,13 +1,10 @@
 package rotra.jason;
 
-import jason.architecture.AgArch;
 import jason.asSemantics.ActionExec;
 import jason.asSemantics.Agent;
-import jason.asSemantics.Message;
-import jason.asSemantics.TransitionSystem;
 import jason.asSyntax.Literal;
-import jason.runtime.Settings;
 import jason.mas2j.ClassParameters;
+import jason.runtime.Settings;
 import java.util.Collection;
 import javax.json.JsonObject;
 
@@ -16,13 +13,12 @@ import javax.json.JsonObject;
  *
  * <p>In: a job.  Out: its trace.  The same job gives the same trace.
  */
-final class Lockstep extends AgArch {
+final class Lockstep extends Unthreaded {
 
     private static final long serialVersionUID = 1L;
 
     private final transient Ride ride;
     private final int cap;
-    private transient Collection<Literal> percepts;
 
     Lockstep(Job job) throws Exception {
         Settings settings = new Settings();
@@ -35,9 +31,12 @@ final class Lockstep extends AgArch {
     /** The whole run. */
     JsonObject run() {
         long start = System.nanoTime();
-        percepts = ride.next();
+        Collection<Literal> percepts = ride.next();
         while (percepts != null) {
-            deliberate();
+            int cycles = deliberate(percepts, cap);
+            if (cycles < 0) {
+                ride.restless(-cycles);
+            }
             ride.rested();
             percepts = ride.next();
         }
@@ -45,69 +44,13 @@ final class Lockstep extends AgArch {
         return ride.answer().add("steps_per_second", Math.round(ride.steps() / Math.max(seconds, 1e-9))).build();
     }
 
-    private void deliberate() {
-        TransitionSystem mind = getTS();
-        int cycles = 0;
-        do {
-            mind.reasoningCycle();
-            ride.cycled();
-            cycles++;
-        } while (!mind.canSleep() && cycles < cap);
-        if (!mind.canSleep()) {
-            ride.restless(cycles);
-        }
-    }
-
     @Override
-    public Collection<Literal> perceive() {
-        Ride.forgetSelection(getTS().getC());
-        Collection<Literal> fresh = percepts;
-        percepts = null;
-        return fresh;
+    void cycled() {
+        ride.cycled();
     }
 
     @Override
     public void act(ActionExec act) {
         ride.acted(act);
-    }
-
-    @Override
-    public String getAgName() {
-        return "driver";
-    }
-
-    @Override
-    public boolean isRunning() {
-        return true;
-    }
-
-    @Override
-    public boolean canSleep() {
-        return true;
-    }
-
-    @Override
-    public void wake() { }
-
-    @Override
-    public void wakeUpSense() { }
-
-    @Override
-    public void wakeUpDeliberate() { }
-
-    @Override
-    public void wakeUpAct() { }
-
-    @Override
-    public void checkMail() { }
-
-    @Override
-    public void sendMsg(Message message) {
-        throw new UnsupportedOperationException("a driver sends no messages");
-    }
-
-    @Override
-    public void broadcast(Message message) {
-        throw new UnsupportedOperationException("a driver sends no messages");
     }
 }

@@ -9,7 +9,7 @@ import javax.json.JsonReader;
 import javax.json.JsonString;
 import javax.json.JsonValue;
 
-/** {@code Main parse|formula|run|bench}: one JSON job on standard input, its answer on standard output. */
+/** {@code Main parse|formula|run|bench|explore}: one JSON job on standard input, its answer on standard output. */
 public final class Main {
 
     private Main() { }
@@ -29,8 +29,9 @@ public final class Main {
             case "formula" -> out.println(formulas(job));
             case "run" -> out.println(run(job));
             case "bench" -> out.println(bench(job));
+            case "explore" -> explore(job, out);
             default -> {
-                System.err.println("usage: Main parse|formula|run|bench");
+                System.err.println("usage: Main parse|formula|run|bench|explore");
                 System.exit(2);
             }
         }
@@ -59,6 +60,15 @@ public final class Main {
             return new Lockstep(Job.read(job)).run();
         } catch (Exception e) {
             throw new IllegalStateException("the driver " + job.getString("agent") + " cannot be run: " + e.getMessage(), e);
+        }
+    }
+
+    /** Every state of the running system, a JSON object a line. */
+    static void explore(JsonObject job, PrintStream out) {
+        try {
+            new Explorer(job, out).explore();
+        } catch (Exception e) {
+            throw new IllegalStateException("the driver " + job.getString("agent") + " cannot be explored: " + e.getMessage(), e);
         }
     }
 

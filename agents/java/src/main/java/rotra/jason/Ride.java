@@ -34,9 +34,9 @@ import rotra.world.World;
  */
 final class Ride {
 
-    private static final String BUSY = "busy";
+    static final String BUSY = "busy";
     /** A mind that does not rest would fill the trace. */
-    private static final int PLANS_SHOWN = 100;
+    static final int PLANS_SHOWN = 100;
 
     private final Job job;
     private final World world;
