@@ -15,7 +15,7 @@ from dataclasses import dataclass, replace
 from rotra.diagnostics import Rejected, problem
 from rotra.frontends.agent import Agent, Plan, Rule, Step, steps_of
 from rotra.frontends.terms import Struct, is_ground, order, parse_ground, show, unify
-from rotra.lowering.deliberation import DONE, Control, Event, Frame, Leaf, Machine, Moment, Pending, Stack, advance, step_key
+from rotra.lowering.deliberation import DONE, MAX_EVENTS, Control, Event, Frame, Leaf, Machine, Moment, Pending, Stack, advance, step_key
 from rotra.lowering.query import Indicator, Knowledge, Mind, changing, indicator
 from rotra.origins import NOWHERE, Origin
 from rotra.system.expr import FALSE, TRUE, Expr, Value, among, choose, conj, const, disj, eq, negate, ref, var
@@ -332,6 +332,9 @@ class _Build:
             for percept in self.watched(op):
                 now, was = self.percept(percept), self.was(percept)
                 events.append(Event(op, "belief", percept, None, conj(now, negate(was)) if op == "+" else conj(was, negate(now))))
+        if len(events) > MAX_EVENTS:
+            patterns = [p for p in self.agent.plans if p.trigger.type == "belief"]
+            raise Rejected([problem("AG109", patterns[0].origin, f"up to {len(events)} events wait at the beginning of a step; at most {MAX_EVENTS} can be followed", "react to fewer changes, or read the percept in a context")])
         return replace(rest, old=rest.pending, pending=(), feedback=tuple(p.asked for p in rest.pending), events=tuple(e for e in events if e.present is not FALSE))
 
     def watched(self, op: str) -> list[Struct]:

@@ -1,0 +1,1 @@
+driven(0). !drive. +!drive : driven(N) <- -+driven(N + 1); wait; !drive.

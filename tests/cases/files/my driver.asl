@@ -1,0 +1,2 @@
+!drive.
++!drive <- wait; !drive.
