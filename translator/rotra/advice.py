@@ -4,8 +4,8 @@ In: a RuleBase; a situation.  Out: `Advice`: the directives with the rules behin
 action name; the words that the ontology does not know; which directives are outranked by a higher authority that asks for
 the opposite (none is left out for it).  Left to others: where situations come from, refusing words.
 
-A situation is a whole number with one bit for each term; a rule applies iff its bits are all there and none of its
-exceptions is.  Each rule is filed under one of its terms (the rarest), so that only rules that may apply are looked at.
+A situation is a set of terms, each a number; a rule applies iff its terms are all there and none of its exceptions is.
+Each rule is filed under one of its terms (the rarest), so that only rules that may apply are looked at.
 """
 
 from __future__ import annotations
@@ -13,7 +13,6 @@ from __future__ import annotations
 from collections import Counter
 from collections.abc import Iterable
 from dataclasses import dataclass
-from operator import itemgetter
 from typing import NamedTuple
 
 from rotra.frontends.rules import RuleBase
@@ -39,20 +38,20 @@ class Advice(NamedTuple):
     outranked: tuple[Outranked, ...] = ()
 
 
-# (needed, forbidden, place in the base, id, ranks of its directives)
-_Entry = tuple[int, int, int, str, tuple[int, ...]]
-_place = itemgetter(2)
+# (place in the base, id, ranks of its directives, what it needs besides the term that it is filed under, what it forbids)
+_Entry = tuple[int, str, tuple[int, ...], frozenset[int], frozenset[int]]
 
 
 @dataclass(frozen=True, slots=True)
 class Adviser:
-    """A compiled rule base.  `directives` stand in the order of advice; an entry names them by rank.
+    """A compiled rule base.  `directives` stand in the order of advice; an entry names them by rank.  `terms`: the number
+    of each belief's and each intention's term, by name and by alias.
 
     `authority`: rank of each rule, 0 the highest; `opposed`: the directives that cannot be heeded with one; both are empty
     where no rule states an authority.
     """
 
-    bits: dict[str, dict[str, int]]
+    terms: dict[str, dict[str, int]]
     always: dict[str, tuple[_Entry, ...]]
     filed: dict[str, dict[int, tuple[_Entry, ...]]]
     directives: tuple[tuple[str, str], ...]
@@ -62,37 +61,40 @@ class Adviser:
     def advise(self, context: str, beliefs: Iterable[str], intentions: Iterable[str] = ()) -> Advice:
         """The advice of one situation; a word may be a term or an alias."""
         unknown: list[str] = []
-        held, mask = [], 0
-        for known, words in ((self.bits["belief"], beliefs), (self.bits["intention"], intentions)):
+        held: set[int] = set()
+        for known, words in ((self.terms["belief"], beliefs), (self.terms["intention"], intentions)):
             for word in words:
-                bit = known.get(word)
-                if bit is None:
-                    if word not in unknown:
-                        unknown.append(word)
-                elif not mask & bit:
-                    mask |= bit
-                    held.append(bit)
+                term = known.get(word)
+                if term is not None:
+                    held.add(term)
+                elif word not in unknown:
+                    unknown.append(word)
         if context not in self.always:
-            unknown.insert(0, context)
-        filed = self.filed.get(context, {})
-        candidates = list(self.always.get(context, ()))
-        for bit in held:
-            candidates += filed.get(bit, ())
-        applicable = [e for e in candidates if e[0] & mask == e[0] and not e[1] & mask]
-        applicable.sort(key=_place)
-        found: dict[int, tuple[str, ...]] = {}
-        for _, _, _, name, ranks in applicable:
+            return Advice((), (context, *unknown))
+        filed = self.filed[context]
+        candidates = list(self.always[context])
+        for term in held:
+            if term in filed:
+                candidates += filed[term]
+        free = held.isdisjoint
+        # An entry begins with its place: sorted, they stand in the order of the base.
+        applicable = sorted([e for e in candidates if e[3] <= held and free(e[4])])
+        found: dict[int, list[str]] = {}
+        for _, name, ranks, _, _ in applicable:
             for rank in ranks:
-                found[rank] = (*found[rank], name) if rank in found else (name,)
+                if rank in found:
+                    found[rank].append(name)
+                else:
+                    found[rank] = [name]
         directives = self.directives
-        advised = tuple([Advised(*directives[rank], found[rank]) for rank in sorted(found)])
+        advised = tuple([Advised(*directives[rank], tuple(found[rank])) for rank in sorted(found)])
         return Advice(advised, tuple(unknown), self._outranked(found) if self.opposed else ())
 
-    def _outranked(self, found: dict[int, tuple[str, ...]]) -> tuple[Outranked, ...]:
+    def _outranked(self, found: dict[int, list[str]]) -> tuple[Outranked, ...]:
         marked = []
-        for rank in sorted(found):
+        for rank in sorted(found.keys() & self.opposed.keys()):
             best = min(self.authority[name] for name in found[rank])
-            against = [name for other in self.opposed.get(rank, ()) for name in found.get(other, ()) if self.authority[name] < best]
+            against = [name for other in self.opposed[rank] for name in found.get(other, ()) if self.authority[name] < best]
             if against:
                 marked.append(Outranked(*self.directives[rank], tuple(dict.fromkeys(against))))
         return tuple(marked)
@@ -100,37 +102,36 @@ class Adviser:
 
 def compile(base: RuleBase) -> Adviser:
     """The adviser of a rule base."""
-    bits: dict[str, dict[str, int]] = {"belief": {}, "intention": {}}
-    position = 0
-    for kind in ("belief", "intention"):
+    terms: dict[str, dict[str, int]] = {"belief": {}, "intention": {}}
+    for kind, table in terms.items():
         for name in base.ontology.terms(kind):
-            bits[kind][name] = 1 << position
-            position += 1
+            table[name] = sum(map(len, terms.values()))
     for (kind, word), name in base.ontology.names.items():
-        if kind in bits:
-            bits[kind].setdefault(word, bits[kind][name])
+        if kind in terms:
+            terms[kind].setdefault(word, terms[kind][name])
     rank = {label: n for n, label in enumerate(base.ontology.labels)}
     directives = sorted({(d.label, d.action) for r in base.rules for d in r.directives}, key=lambda d: (rank[d[0]], d[1]))
     place = {d: n for n, d in enumerate(directives)}
-    needs = {r.id: [bits["belief"][b] for b in r.beliefs] + [bits["intention"][i] for i in r.intentions] for r in base.rules}
-    common = Counter(bit for needed in needs.values() for bit in needed)
+    needs = [_numbers(terms, rule.beliefs, rule.intentions) for rule in base.rules]
+    common = Counter(term for needed in needs for term in needed)
     always: dict[str, list[_Entry]] = {context: [] for context in base.ontology.contexts}
     filed: dict[str, dict[int, list[_Entry]]] = {context: {} for context in base.ontology.contexts}
-    for number, rule in enumerate(base.rules):
-        needed = needs[rule.id]
-        forbidden = sum({bits["belief"][b] for b in rule.unless_beliefs} | {bits["intention"][i] for i in rule.unless_intentions})
-        entry = (sum(set(needed)), forbidden, number, rule.id, tuple(place[d.label, d.action] for d in rule.directives))
-        if needed:
-            filed[rule.context].setdefault(min(needed, key=lambda bit: (common[bit], bit)), []).append(entry)
-        else:
-            always[rule.context].append(entry)
+    for number, (rule, needed) in enumerate(zip(base.rules, needs, strict=True)):
+        under = min(needed, key=lambda term: (common[term], term)) if needed else None
+        forbidden = _numbers(terms, rule.unless_beliefs, rule.unless_intentions)
+        entry = (number, rule.id, tuple(place[d.label, d.action] for d in rule.directives), needed - {under}, forbidden)
+        (always[rule.context] if under is None else filed[rule.context].setdefault(under, [])).append(entry)
     return Adviser(
-        bits,
+        terms,
         {c: tuple(entries) for c, entries in always.items()},
-        {c: {bit: tuple(entries) for bit, entries in table.items()} for c, table in filed.items()},
+        {c: {term: tuple(entries) for term, entries in table.items()} for c, table in filed.items()},
         tuple(directives),
         *_authorities(base, directives),
     )
+
+
+def _numbers(terms: dict[str, dict[str, int]], beliefs: Iterable[str], intentions: Iterable[str]) -> frozenset[int]:
+    return frozenset([terms["belief"][word] for word in beliefs] + [terms["intention"][word] for word in intentions])
 
 
 def _authorities(base: RuleBase, directives: list[tuple[str, str]]) -> tuple[dict[str, int], dict[int, tuple[int, ...]]]:

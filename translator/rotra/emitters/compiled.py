@@ -26,7 +26,7 @@ def emit_compiled(base: RuleBase) -> str:
     document = {
         "rule_base": base.name,
         "contexts": list(base.ontology.contexts),
-        **{f"{kind}s": {word: _number(bit) for word, bit in words.items()} for kind, words in adviser.bits.items()},
+        **{f"{kind}s": numbers for kind, numbers in adviser.terms.items()},
         "directives": adviser.directives,
         "opposed": [adviser.opposed.get(number, ()) for number in range(len(adviser.directives))] if adviser.opposed else [],
         "rules": [_rule(rule, adviser, place) for rule in base.rules],
@@ -35,7 +35,7 @@ def emit_compiled(base: RuleBase) -> str:
 
 
 def _rule(rule: Rule, adviser: Adviser, place: dict[tuple[str, str], int]) -> dict[str, Any]:
-    beliefs, intentions = adviser.bits["belief"], adviser.bits["intention"]
+    beliefs, intentions = adviser.terms["belief"], adviser.terms["intention"]
     return {
         "id": rule.id,
         "context": rule.context,
@@ -46,9 +46,5 @@ def _rule(rule: Rule, adviser: Adviser, place: dict[tuple[str, str], int]) -> di
     }
 
 
-def _numbers(bits: dict[str, int], words: tuple[str, ...]) -> list[int]:
-    return sorted({_number(bits[word]) for word in words})
-
-
-def _number(bit: int) -> int:
-    return bit.bit_length() - 1
+def _numbers(terms: dict[str, int], words: tuple[str, ...]) -> list[int]:
+    return sorted({terms[word] for word in words})

@@ -14,8 +14,12 @@ from __future__ import annotations
 import difflib
 import hashlib
 import json
+import os
+import pickle
 import re
+import sys
 from collections.abc import Iterable, Iterator, Mapping
+from contextlib import suppress
 from dataclasses import dataclass, field
 from functools import cache, lru_cache
 from pathlib import Path
@@ -28,6 +32,8 @@ from rotra.origins import PROJECT, Origin, shown_path
 
 RULES = PROJECT / "rules"
 SCHEMAS = RULES / "schema"
+# Rule bases read without fault, by what they were read from.
+KEPT = PROJECT / ".build" / "rules"
 KINDS = ("belief", "intention", "action")
 # Files of the folder that hold no rules.
 BESIDE_THE_RULES = ("ontology.yaml", "directives.yaml", "coverage.yaml", "dropped.yaml")
@@ -187,7 +193,34 @@ def _contents(folder: Path) -> tuple[tuple[str, str], ...]:
 
 @lru_cache(maxsize=16)
 def _read_rule_base(folder: Path, contents: tuple[tuple[str, str], ...]) -> RuleBase:
-    """The rule base of a folder that holds `contents`."""
+    """The rule base of a folder that holds `contents`: kept from an earlier process, or read and then kept.
+
+    What is kept was found without fault, and is known by the files' contents and those of this program.
+    """
+    known_as = repr((str(folder.resolve()), shown_path(str(folder)), contents, _program(), sys.version))
+    kept = KEPT / f"{hashlib.sha256(known_as.encode()).hexdigest()[:32]}.pickle"
+    try:
+        base: RuleBase = pickle.loads(kept.read_bytes())
+        return base
+    except (OSError, EOFError, ValueError, LookupError, AttributeError, ImportError, pickle.UnpicklingError):
+        base = _validated(folder)
+    # Where nothing can be written, nothing is kept.
+    with suppress(OSError):
+        kept.parent.mkdir(parents=True, exist_ok=True)
+        fresh = kept.with_suffix(f".{os.getpid()}")
+        fresh.write_bytes(pickle.dumps(base, pickle.HIGHEST_PROTOCOL))
+        fresh.replace(kept)
+    return base
+
+
+@cache
+def _program() -> tuple[str, ...]:
+    """What reads a rule base, in short: this package's readers and the schemas."""
+    readers = [*Path(__file__).parent.glob("*.py"), *SCHEMAS.glob("*.json"), Path(__file__).parents[1] / "origins.py"]
+    return tuple(hashlib.sha256(file.read_bytes()).hexdigest() for file in sorted(readers))
+
+
+def _validated(folder: Path) -> RuleBase:
     findings: list[Diagnostic] = []
     ontology = _load_ontology(folder / "ontology.yaml", findings)
     if ontology is None:
