@@ -35,8 +35,7 @@ def translate_to(agent: str, scenario: str, which: str, rules: str, folder: Path
     declared = resolve_scenario(scenario)
     world = instance(declared, which)
     check_driver(driver, world)
-    title = f"{Path(driver.title).name} in {world.id}"
-    files = {**_model(driver, law, world, f"{title}, instance {which}, rules {law.base.name}"), **_project(driver, law, instance(declared, "published"), title)}
+    files = {**model_files(driver, law, world, which), **_project(driver, law, instance(declared, "published"), _title(driver, world))}
     if folder.exists():
         shutil.rmtree(folder)
     for name, text in files.items():
@@ -49,7 +48,13 @@ def translate_to(agent: str, scenario: str, which: str, rules: str, folder: Path
     return (*(folder / name for name in files), folder / "jason" / "lib")
 
 
-def _model(driver: Driver, law: Law, world: Scenario, title: str) -> dict[str, str]:
+def _title(driver: Driver, world: Scenario) -> str:
+    return f"{Path(driver.title).name} in {world.id}"
+
+
+def model_files(driver: Driver, law: Law, world: Scenario, which: str) -> dict[str, str]:
+    """`model.smv` and `names.json` of a scenario whose instance is applied; `which` names it."""
+    title = f"{_title(driver, world)}, instance {which}, rules {law.base.name}"
     smv = emit_smv(build_model(driver.agent, law.advice, law.origins, world).system(), title)
     names = {smv.names.qualified(name): name for name in smv.names.local}
     table = {"names": names, "constants": {safe: name for name, safe in smv.names.constants.items()}}
