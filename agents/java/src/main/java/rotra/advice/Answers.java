@@ -34,19 +34,19 @@ public final class Answers {
     }
 
     /** The adviser of a file that {@code rotra} compiled. */
-    static Adviser read(Path rules) throws IOException {
+    public static Adviser read(Path rules) throws IOException {
         try (JsonReader reader = Json.createReader(Files.newBufferedReader(rules))) {
             return Adviser.compile(reader.readObject());
         }
     }
 
-    static JsonObject object(String line) {
+    public static JsonObject object(String line) {
         try (JsonReader reader = Json.createReader(new StringReader(line))) {
             return reader.readObject();
         }
     }
 
-    static List<String> texts(JsonObject situation, String key) {
+    public static List<String> texts(JsonObject situation, String key) {
         JsonArray array = situation.getJsonArray(key);
         return array == null ? List.of() : array.getValuesAs(JsonString.class).stream().map(JsonString::getString).toList();
     }
