@@ -548,5 +548,31 @@ def compare(first: str, second: str, scenarios: tuple[str, ...], instance: str, 
     return 0 if equal else UNEXPECTED
 
 
+@main.command()
+@click.option("--agent", required=True)
+@click.option("--scenario", required=True)
+@instance_published
+@rules_option
+@click.option("--model", "folder", type=click.Path(path_type=Path), help="A folder that `rotra translate` wrote, instead of a fresh translation.")
+@click.option("--timeout", default=300.0, show_default=True, help="Seconds for each engine.")
+@as_json
+@answered
+def crosscheck(agent: str, scenario: str, instance: str, rules: str, folder: Path | None, timeout: float, as_json: bool) -> int:
+    """Is the running system the model, state by state and edge by edge?"""
+    from rotra.pipeline.crosscheck import crosscheck as check
+
+    found = check(agent, scenario, instance, rules, folder, timeout)
+    parted = found["divergence"]
+    if as_json:
+        say_json(found)
+    elif parted is None:
+        say(f"{agent} in {scenario} ({instance}): equal, {found['notion']}: {found['states']} states, {found['edges']} edges, {found['states_per_second']} states a second")
+    else:
+        say(f"{agent} in {scenario} ({instance}): they part at step {parted['step']}: {parted['what']} is {parted['jason']} in Jason, {parted['model']} in the model")
+        for place in filter(None, (parted.get("from"), *parted.get("by", ()))):
+            say(f"    {place}")
+    return 0 if found["equal"] else UNEXPECTED
+
+
 if __name__ == "__main__":
     main()

@@ -84,6 +84,8 @@ CODES: dict[str, str] = {
     "PR109": "an act, percept or heading that does not exist",
     "PR110": "no such property",
     "PR111": "an expectation that is never asked",
+    "CC100": "a scenario with too many states to try every one",
+    "CC101": "a translation that is not there",
     "TR101": "a trace that is not JSON",
     "TR102": "a trace with a key missing or of the wrong type",
     "TR103": "a trace that cannot be replayed",

@@ -2,6 +2,7 @@ package rotra.jason;
 
 import java.io.PrintStream;
 import java.util.ArrayList;
+import java.util.Collections;
 import java.util.HashMap;
 import java.util.HashSet;
 import java.util.LinkedHashMap;
@@ -46,6 +47,7 @@ final class Explorer {
 
     private static final int START = 0;
     private static final int NONE = -1;
+    private static final int ASKED_AGAIN_AT_LEAST = 5;
 
     private final JsonObject job;
     private final Scenario scenario;
@@ -91,10 +93,11 @@ final class Explorer {
         }
         boolean whole = states.size() <= most;
         double seconds = (System.nanoTime() - begun) / 1e9;
-        List<String> differ = whole ? askedAgain() : List.of();
+        List<Pair> again = whole ? askedAgain() : List.of();
+        List<String> differ = differing(again);
         out.println(Json.createObjectBuilder().add("summary", Json.createObjectBuilder().add("whole", whole).add("starts", starts)
                 .add("states", states.size()).add("edges", edges).add("minds", used.size()).add("pairs", answers.size())
-                .add("differ", Json.createArrayBuilder(differ)).add("states_per_second", Math.round(states.size() / Math.max(seconds, 1e-9)))).build());
+                .add("asked_again", again.size()).add("differ", Json.createArrayBuilder(differ)).add("states_per_second", Math.round(states.size() / Math.max(seconds, 1e-9)))).build());
     }
 
     // -- the world ------------------------------------------------------------------------------------------------------
@@ -256,18 +259,22 @@ final class Explorer {
         return new Answer(number, act, false, mind(agent, new History(pair.mind, pair.seen, true)), afterCrash, text);
     }
 
-    /** Pairs asked of another agent, by another history where there is one: those that are answered otherwise. */
-    private List<String> askedAgain() throws Exception {
-        Random chance = new Random(1);
+    /** A share of the pairs, drawn evenly, but some at least. */
+    private List<Pair> askedAgain() {
+        List<Pair> pairs = new ArrayList<>(answers.keySet());
+        pairs.removeIf(pair -> answers.get(pair).restless);
+        Collections.shuffle(pairs, new Random(1));
+        int share = (int) Math.ceil(pairs.size() * job.getJsonNumber("chance").doubleValue());
+        return pairs.subList(0, Math.min(pairs.size(), Math.max(share, ASKED_AGAIN_AT_LEAST)));
+    }
+
+    /** The pairs asked of another agent, by another history where there is one: those that are answered otherwise. */
+    private List<String> differing(List<Pair> pairs) throws Exception {
         Redriven other = fresh();
         List<String> differ = new ArrayList<>();
         int known = minds.size();
-        for (Map.Entry<Pair, Answer> entry : List.copyOf(answers.entrySet())) {
-            Pair pair = entry.getKey();
-            Answer answer = entry.getValue();
-            if (chance.nextDouble() >= job.getJsonNumber("chance").doubleValue() || answer.restless) {
-                continue;
-            }
+        for (Pair pair : pairs) {
+            Answer answer = answers.get(pair);
             bring(other, otherHistories.getOrDefault(pair.mind, histories.get(pair.mind)));
             Answer again = ask(other, pair, answer.number);
             if (!again.equals(answer) || minds.size() > known) {
