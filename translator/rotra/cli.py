@@ -8,7 +8,8 @@ from __future__ import annotations
 
 import json
 import sys
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
 from functools import partial, wraps
 from pathlib import Path
 from typing import Any
@@ -68,6 +69,15 @@ def answered(command: Callable[..., int | None]) -> Callable[..., None]:
         sys.exit(status)
 
     return run
+
+
+@contextmanager
+def proving(silent: bool) -> Iterator[Callable[[str, int, int], None]]:
+    """A bar that shows how far the proofs are, where somebody looks."""
+    columns = (SpinnerColumn(), TextColumn("{task.description}"), BarColumn(), MofNCompleteColumn(), TimeElapsedColumn())
+    with Progress(*columns, console=errors, transient=True, disable=silent or not errors.is_terminal) as progress:
+        task = progress.add_task("proving", total=None)
+        yield lambda what, done, total: progress.update(task, completed=done, total=total, description=what)
 
 
 as_json = click.option("--json", "as_json", is_flag=True, help="Print one JSON document and nothing else.")
@@ -277,15 +287,23 @@ def rules_check(rules: str, every: bool, as_json: bool) -> int:
 @click.argument("ours", metavar="A")
 @click.argument("theirs", metavar="B")
 @click.option("--all", "every", is_flag=True, help="Show the rules that are the same, too.")
+@click.option("--verdicts", is_flag=True, help="Say which verdicts of the catalogue differ, and why.")
+@click.option("--agent", "agents", multiple=True, help="With --verdicts: a driver; all shipped ones if left out.")
+@click.option("--scenario", "scenarios", multiple=True, help="With --verdicts: a scenario; all shipped ones if left out.")
 @as_json
 @answered
-def rules_diff(ours: str, theirs: str, every: bool, as_json: bool) -> int:
+def rules_diff(ours: str, theirs: str, every: bool, verdicts: bool, agents: tuple[str, ...], scenarios: tuple[str, ...], as_json: bool) -> int:
     """Say rule by rule what A changes, adds and leaves out, compared with B."""
     from rotra.pipeline.rules_diff import counts, diff_rules
+    from rotra.pipeline.verdicts_diff import flipped_verdicts
 
     rows = diff_rules(ours, theirs)
+    flips = ()
+    if verdicts:
+        with proving(as_json) as on_done:
+            flips = flipped_verdicts(ours, theirs, agents, scenarios, on_done)
     if as_json:
-        say_json({"rules": [row.as_json() for row in rows], "counts": counts(rows)})
+        say_json({"rules": [row.as_json() for row in rows], "counts": counts(rows), **({"verdicts": [f.as_json() for f in flips]} if verdicts else {})})
     else:
         for row in rows:
             if every or row.status != "same":
@@ -294,6 +312,10 @@ def rules_diff(ours: str, theirs: str, every: bool, as_json: bool) -> int:
                 for line in ([row.why] if row.why else []) + ([f"NOT EXPLAINED: {'; '.join(row.open)}"] if row.open else []):
                     say(f"        {line}")
         say(", ".join(f"{number} {status}" for status, number in counts(rows).items()) + f"; {sum(bool(row.open) for row in rows)} not explained")
+        for flip in flips:
+            say(f"{flip.agent} in {flip.scenario}: {flip.property} is {flip.ours} under A, {flip.theirs} under B" + (f": {flip.why}" if flip.why else ""))
+        if verdicts:
+            say(f"{len(flips)} verdicts differ")
     return UNEXPECTED if any(row.open for row in rows) else 0
 
 
@@ -375,13 +397,7 @@ def verify(agents: tuple[str, ...], scenarios: tuple[str, ...], names: tuple[str
     from rotra.pipeline.campaign import Wanted, run_campaign
 
     wanted = Wanted(agents, scenarios, names, catalogues, instance, rules, output, jobs, timeout)
-    columns = (SpinnerColumn(), TextColumn("{task.description}"), BarColumn(), MofNCompleteColumn(), TimeElapsedColumn())
-    with Progress(*columns, console=errors, transient=True, disable=as_json or not errors.is_terminal) as progress:
-        task = progress.add_task("proving", total=None)
-
-        def on_done(what: str, done: int, total: int) -> None:
-            progress.update(task, completed=done, total=total, description=what)
-
+    with proving(as_json) as on_done:
         result = run_campaign(wanted, on_done)
     if as_json:
         say_json({"verdicts": [row.as_json() for row in result.rows], **({"timings": result.timings} if timings else {})})
