@@ -114,7 +114,7 @@ def test_steps_a_second(scenario: str, tmp_path: Path) -> None:
     advice.write_text(load_law("uk").text, encoding="utf-8")
     world = scenario_json(instance(resolve_scenario(scenario), "published"))
     job = {
-        "runs": 5,
+        "runs": 3,
         "agent": str(driver.file),
         "rules": str(advice),
         "world": world,
@@ -122,7 +122,7 @@ def test_steps_a_second(scenario: str, tmp_path: Path) -> None:
         "seed": None,
         "choices": None,
         "percepts": None,
-        "steps": 50_000,
+        "steps": 20_000,
         "until": None,
         "trace": False,
         "cap": 500,
