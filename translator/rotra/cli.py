@@ -295,10 +295,10 @@ def rules_check(rules: str, every: bool, as_json: bool) -> int:
 def rules_diff(ours: str, theirs: str, every: bool, verdicts: bool, agents: tuple[str, ...], scenarios: tuple[str, ...], as_json: bool) -> int:
     """Say rule by rule what A changes, adds and leaves out, compared with B."""
     from rotra.pipeline.rules_diff import counts, diff_rules
-    from rotra.pipeline.verdicts_diff import flipped_verdicts
+    from rotra.pipeline.verdicts_diff import Flip, flipped_verdicts
 
     rows = diff_rules(ours, theirs)
-    flips = ()
+    flips: tuple[Flip, ...] = ()
     if verdicts:
         with proving(as_json) as on_done:
             flips = flipped_verdicts(ours, theirs, agents, scenarios, on_done)

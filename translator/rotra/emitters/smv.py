@@ -90,8 +90,8 @@ def name_everything(system: System) -> Names:
     used: set[str] = set()
     for part in system.parts:
         taken: set[str] = set()
-        for item in (*part.variables, *part.definitions):
-            local[item.name] = (part.name.replace("@", "_"), _safe(item.name, taken))
+        for name in (*(v.name for v in part.variables), *(d.name for d in part.definitions)):
+            local[name] = (part.name.replace("@", "_"), _safe(name, taken))
         used |= taken
     constants: dict[str, str] = {}
     for value in sorted(_constants(system)):
@@ -147,8 +147,8 @@ def emit_smv(system: System, title: str, specifications: Iterable[Specification]
     for spec in specifications:
         keyword = {"invariant": "INVARSPEC", "ltl": "LTLSPEC", "ctl": "CTLSPEC"}[spec.kind]
         lines.append(f"{keyword} NAME {spec.name} := {spec.text};")
-    for part in system.parts:
-        lines += ["", *_module(part, parts, names)]
+    for module in system.parts:
+        lines += ["", *_module(module, parts, names)]
     return Smv("\n".join(lines) + "\n", names)
 
 

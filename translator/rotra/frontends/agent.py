@@ -7,7 +7,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, cast
 
 from rotra.frontends.terms import Items, Struct, Sum, Term, Text, Var, resolve, show
 from rotra.origins import Origin
@@ -168,19 +168,24 @@ def _read_step(data: Mapping[str, Any]) -> Step:
     )
 
 
+def _head(data: Mapping[str, Any]) -> Struct:
+    """What is believed, wanted or triggers; a variable there is refused by the fragment check, which comes next."""
+    return cast(Struct, _literal(data))
+
+
 def read_agent(file: str, ast: Mapping[str, Any]) -> Agent:
     knowledge: list[tuple[int, Rule]] = []
     for i, belief in enumerate(ast["beliefs"]):
-        head = _literal(belief["literal"])
+        head = _head(belief["literal"])
         knowledge.append((belief.get("index", i), Rule(head, TRUE_FORMULA, Origin(belief["file"], belief["line"]))))
     for i, rule in enumerate(ast["rules"]):
-        knowledge.append((rule.get("index", 10**6 + i), Rule(_literal(rule["head"]), read_formula(rule["body"]), Origin(rule["file"], rule["line"]))))
-    goals = tuple((_literal(g["literal"]), Origin(g["file"], g["line"])) for g in ast["goals"])
+        knowledge.append((rule.get("index", 10**6 + i), Rule(_head(rule["head"]), read_formula(rule["body"]), Origin(rule["file"], rule["line"]))))
+    goals = tuple((_head(g["literal"]), Origin(g["file"], g["line"])) for g in ast["goals"])
     plans = []
     for p in ast["plans"]:
         t = p["trigger"]
         annotations = tuple(read_term(a) for a in p.get("annotations") or ())
-        trigger = Trigger(t["op"], t["type"], _literal(t["literal"]), tuple(read_term(a) for a in t["literal"].get("annots") or ()))
+        trigger = Trigger(t["op"], t["type"], _head(t["literal"]), tuple(read_term(a) for a in t["literal"].get("annots") or ()))
         origin = Origin(p.get("file") or t["file"], int(t.get("line") or p["line"]), p["label"])
         atomic = any(isinstance(a, Struct) and a.name == "atomic" for a in annotations)
         plans.append(Plan(p["label"], trigger, read_formula(p["context"]), read_body(p["body"]), origin, atomic, annotations))

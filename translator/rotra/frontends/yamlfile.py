@@ -8,6 +8,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Any
 
 import yaml
 
@@ -73,7 +74,7 @@ def load_yaml(path: Path | str) -> Node:
         loader.dispose()
 
 
-def _convert(node: yaml.Node, name: str, loader: object, above: frozenset[int]) -> Node:
+def _convert(node: yaml.Node, name: str, loader: Any, above: frozenset[int]) -> Node:
     line = node.start_mark.line + 1
     if id(node) in above:
         raise Rejected([problem("IO101", Origin(name, line), "a YAML alias that contains itself", "write the value out")])

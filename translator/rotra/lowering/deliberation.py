@@ -331,6 +331,7 @@ class Machine:
                 raise AssertionError(f"{step.kind} passed the fragment check")
 
     def _literal(self, step: Step, bound: Substitution) -> Term:
+        assert step.literal is not None
         literal = resolve(step.literal, bound) if isinstance(step.literal, Var) else step.literal
         if not isinstance(literal, Struct):
             raise Rejected([problem("AG104", step.origin, f"variable {show(step.literal)} has no value here", "bind it in the context")])
@@ -447,8 +448,8 @@ class Machine:
             case ".abolish":
                 pattern = resolve(step.args[0], bound)
                 gone = {b: g for b, g in m.beliefs.items() if g is not FALSE and unify(pattern, b, {}) is not None}
-                events = tuple(Event("-", "belief", b, None, g) for b, g in sorted(gone.items(), key=lambda i: show(i[0])) if self.candidates("-", "belief", b))
-                yield self._done(stack, replace(m, beliefs={**m.beliefs, **{b: FALSE for b in gone}}, control=replace(c, events=(*c.events, *events))))
+                raised = tuple(Event("-", "belief", b, None, g) for b, g in sorted(gone.items(), key=lambda i: show(i[0])) if self.candidates("-", "belief", b))
+                yield self._done(stack, replace(m, beliefs={**m.beliefs, **{b: FALSE for b in gone}}, control=replace(c, events=(*c.events, *raised))))
             case _:
                 yield from self._test(step, Formula("internal", step.args, step.name), stack, m)
 

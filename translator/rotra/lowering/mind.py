@@ -275,7 +275,8 @@ class _Build:
     def run(self) -> DriverModel:
         start = FIRST
         self.minds[start] = START
-        todo, leaves = [start], []
+        todo = [start]
+        leaves: list[tuple[Expr, Leaf, str]] = []
         at = var(self.own("at"))
         alive = negate(var("crashed")) if self.senses.may_crash else TRUE
         beliefs = {b: self.belief(b) for b in self.known}

@@ -125,8 +125,8 @@ def _literal(literal: Term, bound: Substitution, mind: Mind, depth: int) -> Iter
     rules = mind.knowledge.rules.get(indicator(asked), ())
     if is_ground(asked) and any(r.body.op != "true" for r in rules):
         if asked not in mind.memo:
-            found = _answers(asked, mind, depth)
-            mind.memo[asked] = mind.name(asked, disj(*(s.guard for s in found)), _together(s.origin for s in found))
+            answers = _answers(asked, mind, depth)
+            mind.memo[asked] = mind.name(asked, disj(*(s.guard for s in answers)), _together(s.origin for s in answers))
         if mind.memo[asked] is not FALSE:
             yield Solution(bound, mind.memo[asked])
         return

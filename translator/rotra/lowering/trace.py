@@ -81,7 +81,9 @@ def _record(number: int, model: Model, situation: Situation, wanted: Mapping[Any
     act = show(done) if done else "wait"
     plans = [c for c in model.driver.choices if read(c.name)]
     plans.sort(key=lambda c: c.cycle)
-    ignored, justified, advice = [], [], []
+    ignored: list[dict[str, str]] = []
+    justified: list[dict[str, str]] = []
+    advice: list[dict[str, Any]] = []
     for d, (advised, against, excused) in sorted(wanted.items(), key=lambda i: (i[0].label != "must", i[0].label, i[0].action)):
         if not value(advised):
             continue

@@ -28,7 +28,7 @@ def walk(model: Model, steps: Sequence[Mapping[str, Any]]) -> list[State]:
         if states:
             memo: dict[Expr, Any] = {}
             last = states[-1]
-            state = {n: last[n] if v.frozen else evaluate(v.next, last, definitions, memo) for n, v in variables.items() if v.frozen or v.next is not None}
+            state = {n: last[n] for n, v in variables.items() if v.frozen} | {n: evaluate(v.next, last, definitions, memo) for n, v in variables.items() if v.next is not None}
         else:
             state = {n: v.initial[0] for n, v in variables.items()} | _start(model, step.get("start") or {}, variables)
         states.append(state | _chosen(model, step, variables))

@@ -104,12 +104,9 @@ def _asked(questions: Iterable[Question], words: Words) -> list[Expr]:
             found += expressions(q.bound)
             for _, b in hollow(q.property.formula, words):
                 found += expressions(b)
-        for f in q.property.assuming:
-            b = bind(f, words)
-            found += [] if isinstance(b, Impossible) else expressions(b)
-        if q.property.witness is not None:
-            b = bind(q.property.witness, words)
-            found += [] if isinstance(b, Impossible) else expressions(b)
+        asked = (*q.property.assuming, *(() if q.property.witness is None else (q.property.witness,)))
+        for bound in (bind(f, words) for f in asked):
+            found += [] if isinstance(bound, Impossible) else expressions(bound)
     return found
 
 
@@ -168,16 +165,20 @@ def _specify(questions: list[Question], names: Names, words: Words, witnesses: b
         for i, (what, b) in enumerate(hollow(q.property.formula, words)):
             q.hollow.append((never(f"{q.main}_live{i}", b, False), what))
         if q.property.witness is not None:
-            b = bind(q.property.witness, words)
-            if isinstance(b, Impossible):
-                q.impossible = f"its witness can never be seen here: {b.reason}"
+            seen = bind(q.property.witness, words)
+            if isinstance(seen, Impossible):
+                q.impossible = f"its witness can never be seen here: {seen.reason}"
+            elif (state := _plain_eventually(seen)) is not None:
+                q.witness = ask(f"{q.main}_witness", "invariant", write(negate(state)), witnesses)
             else:
-                q.witness = ask(f"{q.main}_witness", "invariant", write(negate(b.args[0].expr)), witnesses) if _plain_eventually(b) else ask(f"{q.main}_witness", "ltl", to_ltl(negation(b), write), witnesses)
+                q.witness = ask(f"{q.main}_witness", "ltl", to_ltl(negation(seen), write), witnesses)
     return specifications, checks
 
 
-def _plain_eventually(bound: Bound) -> bool:
-    return not isinstance(bound, State) and bound.op == "eventually" and isinstance(bound.args[0], State)
+def _plain_eventually(bound: Bound) -> Expr | None:
+    """p of `eventually p`, where p is about one moment."""
+    inner = bound.args[0] if not isinstance(bound, State) and bound.op == "eventually" else None
+    return inner.expr if isinstance(inner, State) else None
 
 
 def _verdict(q: Question, answers: Answers, names: Names, model: Model) -> Verdict:
