@@ -122,7 +122,7 @@ def test_steps_a_second(scenario: str, tmp_path: Path) -> None:
         "seed": None,
         "choices": None,
         "percepts": None,
-        "steps": 20_000,
+        "steps": 5_000,
         "until": None,
         "trace": False,
         "cap": 500,
