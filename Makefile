@@ -16,7 +16,7 @@ export PIP_DISABLE_PIP_VERSION_CHECK := 1
 # A stamp whose thing is gone (.venv removed, `mvn clean`, an emptied Maven repository) is no stamp.
 $(shell $(TOOLCHAIN)/stale.sh)
 
-.PHONY: help setup verify test check bench clean distclean packages testtools jvm nusmv python
+.PHONY: help setup verify crosscheck test check bench clean distclean packages testtools jvm nusmv python
 
 help: ## say what there is
 	@sed -n 's/^\([a-z]*\):.*## /  make \1\t/p' Makefile | expand -t 18
@@ -27,6 +27,11 @@ setup: packages python nusmv jvm ## install and build all that is needed
 verify: setup ## prove every property of every driver in every scenario
 	@echo "==> rotra verify"
 	@$(VENV)/rotra verify
+
+crosscheck: setup ## the running system and the model, state by state, in every widest instance
+	@echo "==> rotra crosscheck"
+	@for scenario in traffic_light overtake right_turn; do for agent in reactive must_only proactive; do \
+	  $(VENV)/rotra crosscheck --agent $$agent --scenario $$scenario --instance all; done; done
 
 test: setup testtools ## every test, Java and Python
 	@echo "==> Java tests"

@@ -121,14 +121,16 @@ def _mind(name: str) -> Getter | None:
         case "rule":
             return lambda s, m, a: any(what in d["rules"] for d in a["rest"]["advice"])
         case "advised" | "ignored":
-            entry = "advice" if kind == "advised" else kind
-            return lambda s, m, a: what in (f"{d['label']}:{d['action']}" for d in a["rest"][entry])
+            told = "advice" if kind == "advised" else kind
+            return lambda s, m, a: what in (f"{d['label']}:{d['action']}" for d in a["rest"][told])
         case "rest":
-            for functor, entry in (("believes", "beliefs"), ("intends", "intentions")):
-                if said := re.match(rf"{functor}\((.*)\)\Z", what):
-                    return lambda s, m, a: said.group(1) in a["rest"]["situation"][entry]  # type: ignore[union-attr]
-            if said := re.match(r"context\((.*)\)\Z", what):
-                return lambda s, m, a: a["rest"]["situation"]["context"] == said.group(1)  # type: ignore[union-attr]
+            said = re.match(r"(believes|intends|context)\((.*)\)\Z", what)
+            if said is not None:
+                functor, word = said.groups()
+                if functor == "context":
+                    return lambda s, m, a: a["rest"]["situation"]["context"] == word
+                entry = {"believes": "beliefs", "intends": "intentions"}[functor]
+                return lambda s, m, a: word in a["rest"]["situation"][entry]
     return None
 
 

@@ -68,7 +68,7 @@ def _explored(driver: Driver, law: Law, world: Scenario, timeout: float) -> Expl
         ask_java("explore", job, timeout, lines.append)
     explored = read_explored(lines)
     if not explored.summary["whole"]:
-        raise TooManyStates(f"more than {MOST_STATES} states")
+        raise TooManyStates(f"more than {MOST_STATES} states, or minds that grow without end")
     return explored
 
 

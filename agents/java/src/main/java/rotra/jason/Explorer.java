@@ -48,6 +48,8 @@ final class Explorer {
     private static final int START = 0;
     private static final int NONE = -1;
     private static final int ASKED_AGAIN_AT_LEAST = 5;
+    /** A mind that grows for ever has a new key in every step; the way to the last of so many is long. */
+    private static final int MOST_MINDS = 2000;
 
     private final JsonObject job;
     private final Scenario scenario;
@@ -87,17 +89,21 @@ final class Explorer {
             World world = World.start(scenario, start);
             choices(world).forEach(w -> starts.add(number(new State(w, START, start.trafficSpeed()))));
         }
-        for (int i = 0; i < states.size() && i <= most; i++) {
+        for (int i = 0; i < states.size() && within(); i++) {
             edges += expand(i);
             states.set(i, null);
         }
-        boolean whole = states.size() <= most;
+        boolean whole = within();
         double seconds = (System.nanoTime() - begun) / 1e9;
         List<Pair> again = whole ? askedAgain() : List.of();
         List<String> differ = differing(again);
         out.println(Json.createObjectBuilder().add("summary", Json.createObjectBuilder().add("whole", whole).add("starts", starts)
                 .add("states", states.size()).add("edges", edges).add("minds", used.size()).add("pairs", answers.size())
                 .add("asked_again", again.size()).add("differ", Json.createArrayBuilder(differ)).add("states_per_second", Math.round(states.size() / Math.max(seconds, 1e-9)))).build());
+    }
+
+    private boolean within() {
+        return states.size() <= most && minds.size() <= MOST_MINDS;
     }
 
     // -- the world ------------------------------------------------------------------------------------------------------
