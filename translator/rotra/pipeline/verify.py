@@ -61,8 +61,17 @@ class Question:
     slow: Specification | None = None
 
 
-def verify_model(model: Model, properties: Sequence[Property], timeout: float, witnesses: bool, timings: dict[str, float]) -> tuple[Verdict, ...]:
-    """Verdicts in the order of the properties.  `timings` gains the seconds of each phase.  Errors: PR1xx as `Rejected`."""
+@dataclass(slots=True)
+class Record:
+    """What a verdict rests on, for who wants to keep it: models and logs of the engine, and each property's checks by role."""
+
+    models: list[str] = field(default_factory=list)
+    logs: list[str] = field(default_factory=list)
+    checks: list[dict[str, Any]] = field(default_factory=list)
+
+
+def verify_model(model: Model, properties: Sequence[Property], timeout: float, witnesses: bool, timings: dict[str, float], record: Record | None = None) -> tuple[Verdict, ...]:
+    """Verdicts in the order of the properties.  `timings` gains the seconds of each phase, `record` what the verdicts rest on.  Errors: PR1xx as `Rejected`."""
     begun = time.monotonic()
     words = Words(model)
     questions = [_question(n, p, words) for n, p in enumerate(properties)]
@@ -75,6 +84,7 @@ def verify_model(model: Model, properties: Sequence[Property], timeout: float, w
         file = Path(folder) / "model.smv"
         file.write_text(emit_smv(system, model.scenario.id, specifications, names).text)
         answers = check_model(places.nusmv(), file, checks, timeout)
+        _keep(record, file, answers)
         for q in questions:
             if any(isinstance(answers.checks[e], Holds) for e in q.enough):
                 answers = replace(answers, checks={**answers.checks, q.main: Holds()}, seconds={**answers.seconds, q.main: sum(answers.seconds.get(e, 0.0) for e in q.enough)})
@@ -82,12 +92,28 @@ def verify_model(model: Model, properties: Sequence[Property], timeout: float, w
         if slow:
             file.write_text(emit_smv(system, model.scenario.id, slow, names).text)
             more = check_model(places.nusmv(), file, [Check(s.name, s.kind, True) for s in slow], max(1.0, timeout - (time.monotonic() - lowered)))
+            _keep(record, file, more)
             answers = replace(answers, checks={**answers.checks, **more.checks}, seconds={**answers.seconds, **more.seconds})
     timings["solve"] = timings.get("solve", 0) + time.monotonic() - lowered
     begun = time.monotonic()
     verdicts = tuple(_verdict(q, answers, names, model) for q in questions)
+    if record is not None:
+        record.checks += [_roles(q) for q in questions]
     timings["traces"] = timings.get("traces", 0) + time.monotonic() - begun
     return verdicts
+
+
+def _keep(record: Record | None, file: Path, answers: Answers) -> None:
+    if record is not None:
+        record.models.append(file.read_text())
+        record.logs.append(answers.log.replace(str(file), file.name))
+
+
+def _roles(q: Question) -> dict[str, Any]:
+    """The names of the checks as evidence/check.py reads them; none where the property was not asked."""
+    if q.bound is None or q.impossible:
+        return {}
+    return {"main": q.main, "enough": q.enough, "fair": q.fair, "hollow": [name for name, _ in q.hollow], "witness": q.witness}
 
 
 def _question(number: int, wanted: Property, words: Words) -> Question:
