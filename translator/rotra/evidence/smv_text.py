@@ -21,6 +21,7 @@ from lark.exceptions import UnexpectedInput
 
 Value = bool | int | str
 State = tuple[Value, ...]
+_NESTED = 60
 _ASKED = ("INVARSPEC", "LTLSPEC", "CTLSPEC")
 _BETWEEN = {"either": "or", "both": "and", "equal": "==", "unequal": "!=", "less": "<", "at_most": "<=", "more": ">", "at_least": ">=", "inside": "in", "plus": "+", "minus": "-", "times": "*", "modulo": "%"}
 
@@ -118,6 +119,7 @@ class _Flat:
 
     def __init__(self, modules: Mapping[str, _Module], constants: set[str]) -> None:
         self.constants = constants
+        self.before: list[str] = []
         self.inside: dict[str, _Module] = {}
         self.known: dict[str, dict[str, str]] = {}
         for instance, (kind, _) in modules["main"].variables.items():
@@ -177,7 +179,15 @@ class _Flat:
         return name
 
     def python(self, part: str, tree: Tree[Token]) -> str:
-        """The expression as Python over the state `s` and the definitions already computed, `d0`, `d1` ..."""
+        """The expression as Python; what is nested too deeply for Python's parser is computed before, as `t0`, `t1` ..."""
+        text = self.written(part, tree)
+        if text.count("(") < _NESTED:
+            return text
+        self.before.append(text)
+        return f"t{len(self.before) - 1}"
+
+    def written(self, part: str, tree: Tree[Token]) -> str:
+        """The expression over the state `s` and the definitions already computed, `d0`, `d1` ..."""
         kids = tree.children
         match tree.data:
             case "true" | "false":
@@ -237,8 +247,17 @@ class _Flat:
     def function(self, wanted: Sequence[tuple[str, Tree[Token]]]) -> Callable[[State], State]:
         """state -> the values of the expressions, each with the part in which it stands."""
         needs = [n for part, tree in wanted for n in self.needed(part, [tree])]
-        lines = [f"    {self.number[n]} = {self.python(*self.definitions[n])}" for n in self.in_order(needs)]
-        values = "".join(f"{self.python(part, tree)}, " for part, tree in wanted)
+        self.before = []
+        lines: list[str] = []
+
+        def finished(text: str) -> str:
+            for number in range(sum(line.startswith("    t") for line in lines), len(self.before)):
+                lines.append(f"    t{number} = {self.before[number]}")
+            return text
+
+        for n in self.in_order(needs):
+            lines.append(finished(f"    {self.number[n]} = {self.python(*self.definitions[n])}"))
+        values = finished("".join(f"{self.python(part, tree)}, " for part, tree in wanted))
         space: dict[str, Any] = {"uncovered": _uncovered}
         exec("\n".join(["def compute(s):", *lines, f"    return ({values})"]), space)  # noqa: S102
         compute: Callable[[State], State] = space["compute"]

@@ -49,7 +49,7 @@ final class Explorer {
     private static final int NONE = -1;
     private static final int ASKED_AGAIN_AT_LEAST = 5;
     /** A mind that grows for ever has a new key in every step; the way to the last of so many is long. */
-    private static final int MOST_MINDS = 2000;
+    private static final int MOST_MINDS = 400;
 
     private final JsonObject job;
     private final Scenario scenario;
