@@ -341,7 +341,7 @@ def rules_import(source: Path, output: Path, overlay: Path | None, words: str, a
 
 
 @rules.command("export")
-@click.option("--format", "form", type=click.Choice(["prolog", "jason", "smv"]), required=True)
+@click.option("--format", "form", type=click.Choice(["prolog", "jason", "smv", "json"]), required=True)
 @click.option("-o", "--output", type=click.Path(path_type=Path), help="The file to write; the screen if left out.")
 @rules_option
 @as_json

@@ -223,7 +223,7 @@ class _Flat:
                 if leaf.data in ("name", "member"):
                     name = self.named(part, ".".join(map(str, leaf.children)))
                     if name in self.number:
-                        yield name  # type: ignore[misc]
+                        yield name
 
     def in_order(self, names: Iterable[str]) -> list[str]:
         """The definitions and all they need, each after what it needs.  Errors: one that needs itself."""

@@ -19,6 +19,7 @@ def shipped() -> dict[str, dict[str, str]]:
     return {
         "agents": {name: first_comment(PROJECT / "agents" / f"{name}.asl") for name in shipped_agents()},
         "scenarios": {name: _says(PROJECT / "model" / "scenarios" / f"{name}.yaml") for name in shipped_scenarios()},
+        "mirrored scenarios": {file.stem: _says(file) for file in sorted((PROJECT / "model" / "scenarios" / "mirrored").glob("*.yaml"))},
         "rules": {folder.name: _rule_base(folder) for folder in _rule_bases()},
         "properties": _properties(),
     }

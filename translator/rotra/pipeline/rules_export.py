@@ -11,6 +11,7 @@ from pathlib import Path
 
 from rotra.diagnostics import Rejected, problem
 from rotra.emitters.agentspeak import emit_advice
+from rotra.emitters.compiled import emit_compiled
 from rotra.emitters.prolog import emit_prolog
 from rotra.emitters.smv import emit_smv
 from rotra.frontends.rules import RuleBase, load_rule_base
@@ -22,7 +23,7 @@ def _smv(base: RuleBase) -> str:
     return emit_smv(situation_system(base), f"The advice of the rule base {base.name} in every situation").text
 
 
-FORMATS: dict[str, Callable[[RuleBase], str]] = {"prolog": emit_prolog, "jason": emit_advice, "smv": _smv}
+FORMATS: dict[str, Callable[[RuleBase], str]] = {"prolog": emit_prolog, "jason": emit_advice, "smv": _smv, "json": emit_compiled}
 
 
 def export_rules(rules: str, form: str, output: Path | None = None) -> str:
