@@ -20,6 +20,9 @@ REFUSED = {
     "IO104": ["translate", "--agent", "reactive", "--scenario", "traffic_light", "-o", str(FILES)],
     "IO105": ["translate", "--agent", str(FILES / "my driver.asl"), "--scenario", "traffic_light", "-o", "out"],
     "PR110": ["verify", "--agent", "reactive", "--scenario", "traffic_light", "--property", "never_crash", "-o", "out"],
+    "EV101": ["certify", "--agent", "reactive", "--scenario", "traffic_light", "-o", "out", "--key", str(FILES / "no_trace.json")],
+    "EV102": ["certify", "--new-key", "--key", str(FILES / "no_trace.json")],
+    "EV103": ["evidence", "verify", str(FILES)],
     "TR101": ["explain", str(FILES / "no_trace.json")],
     "TR102": ["explain", str(FILES / "steps_missing.json")],
     "TR103": ["replay", str(FILES / "no_act.json")],
@@ -47,6 +50,6 @@ def test_refused(code: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> 
 
 def test_every_code_that_a_command_can_answer_is_tried() -> None:
     """The codes of agents, rules, scenarios and properties have case files of their own; these are of files, names and traces."""
-    named = {c for c in CODES if c.startswith("IO") or c in ("AG116", "SC100", "PR110", "TR101", "TR102", "TR103")}
+    named = {c for c in CODES if c.startswith(("IO", "EV")) or c in ("AG116", "SC100", "PR110", "TR101", "TR102", "TR103")}
     elsewhere = {"IO103"}  # cases/rules, cases/scenarios, cases/properties
     assert named - elsewhere <= set(REFUSED)

@@ -590,5 +590,85 @@ def crosscheck(agent: str, scenario: str, instance: str, rules: str, folder: Pat
     return 0 if found["equal"] else UNEXPECTED
 
 
+@main.command()
+@click.option("-o", "--output", type=click.Path(path_type=Path), help="The folder to write.")
+@click.option("--agent", "agents", multiple=True, help="A shipped driver or an .asl file; all shipped ones if left out.")
+@click.option("--scenario", "scenarios", multiple=True, help="A shipped scenario or a file; all shipped ones if left out.")
+@click.option("--property", "names", multiple=True, help="The id of a property; all if left out.")
+@click.option("--properties", "catalogues", multiple=True, help="A properties file of your own, instead of the catalogue.")
+@click.option("--key", type=click.Path(path_type=Path), help="Your private key; the bundle is unsigned without one.")
+@click.option("--new-key", is_flag=True, help="Make the key first: FILE, and FILE.pub to give away.")
+@click.option("--timeout", default=600.0, show_default=True, help="Seconds for one driver in one scenario.")
+@as_json
+@answered
+def certify(output: Path | None, agents: tuple[str, ...], scenarios: tuple[str, ...], names: tuple[str, ...], catalogues: tuple[str, ...], key: Path | None, new_key: bool, timeout: float, as_json: bool) -> int:
+    """Prove, and write a bundle of evidence that others can check."""
+    from rotra.evidence.bundle import passed, title
+    from rotra.evidence.statement import load_private
+    from rotra.evidence.statement import new_key as make_key
+    from rotra.pipeline.campaign import Wanted
+    from rotra.pipeline.certify import certify as make_bundle
+
+    if output is None and not new_key:
+        raise click.UsageError("say with -o where the bundle shall be, or with --new-key that you want a key")
+    key = Path("rotra.key") if new_key and key is None else key
+    made = make_key(key) if new_key and key is not None else ()
+    signing = None if key is None else load_private(key)
+    rows: list[dict[str, Any]] = []
+    if output is not None:
+        with proving(as_json) as on_done:
+            rows = make_bundle(Wanted(agents, scenarios, names, catalogues, "all", "uk", None, 1, timeout), output, signing, on_done)
+    signed = "unsigned" if signing is None else "signed"
+    if as_json:
+        say_json({"keys": [str(p) for p in made], "bundle": None if output is None else str(output), "signature": signed, "verdicts": [{k: r[k] for k in ("agent", "scenario", "property", "verdict", "expected", "as_expected")} for r in rows]})
+        return 0 if all(map(passed, rows)) else UNEXPECTED
+    for path in made:
+        say(f"made {path}")
+    for row in rows:
+        if not passed(row):
+            say(printable(f"{title(row)} is {row['verdict']}" + (f", {row['expected']} was expected" if row["as_expected"] is False else "")))
+    if output is not None:
+        say(f"wrote {output}: {len(rows)} verdicts, {sum(map(passed, rows))} as expected; {signed}")
+    return 0 if all(map(passed, rows)) else UNEXPECTED
+
+
+def printable(text: str) -> str:
+    """A stranger's text without what would steer the terminal."""
+    return "".join(c if c.isprintable() else c.encode("unicode_escape").decode("ascii") for c in text)
+
+
+@main.group()
+def evidence() -> None:
+    """Look at a bundle of evidence."""
+
+
+@evidence.command("verify")
+@click.argument("folder", metavar="DIR", type=click.Path(path_type=Path))
+@click.option("--key", type=click.Path(path_type=Path), help="The public key that it must be signed with.")
+@click.option("--rerun", "again", is_flag=True, help="Prove all of it again from the inputs in it.")
+@click.option("--timeout", default=600.0, show_default=True, help="With --rerun: seconds for one driver in one scenario.")
+@as_json
+@answered
+def evidence_verify(folder: Path, key: Path | None, again: bool, timeout: float, as_json: bool) -> int:
+    """Is the bundle in DIR whole, whose is it, and do its logs support what it says?"""
+    from rotra.evidence.check import Judgement, check_bundle
+    from rotra.evidence.statement import load_public
+
+    judged = check_bundle(folder, None if key is None else load_public(key))
+    if again and judged.accepted:
+        from rotra.pipeline.certify import rerun
+
+        with proving(as_json) as on_done:
+            judged = Judgement(tuple(rerun(folder, timeout, on_done)), judged.signature)
+    if as_json:
+        say_json(judged.as_json())
+    else:
+        for fault in judged.faults:
+            say(printable(f"{fault.file}: {fault.fault}"))
+        signature = {"good": "signed with this key", "not checked": "signed, but no --key was given to check it", "bad": "its signature is not good"}.get(judged.signature, judged.signature)
+        say(f"{'accepted' if judged.accepted else 'rejected'}; {signature}")
+    return 0 if judged.accepted else UNEXPECTED
+
+
 if __name__ == "__main__":
     main()

@@ -83,9 +83,30 @@ def check_model(nusmv: Path, model: Path, checks: Sequence[Check], timeout: floa
     total = _total(blocks)
     states = re.search(r"reachable states: ([0-9.e+]+)", blocks.get("reachable", ""))
     initial = blocks.get("initial")
-    none = "set of initial states is EMPTY" in log or "initial states set is empty" in log.lower()
     seconds = {name: float(took.group(1)) for name, block in blocks.items() if (took := re.search(r"^elapse: ([0-9.]+) seconds", block, re.MULTILINE))}
-    return Answers(answers, None if initial is None else not none, total, int(float(states.group(1))) if states else None, seconds, log)
+    return Answers(answers, None if initial is None else not _no_start(log), total, int(float(states.group(1))) if states else None, seconds, log)
+
+
+def log_says(log: str) -> tuple[dict[str, bool], bool | None]:
+    """Of a log that was kept: what it says of each check that it answers, and whether anything can be concluded from the model:
+    is there an initial state, and has every reachable one a successor?"""
+    blocks = _blocks(log.replace("NuSMV > ", ""))
+    found = {name: _VERDICT.search(block) for name, block in blocks.items()}
+    return {name: verdict.group(1) == "true" for name, verdict in found.items() if verdict is not None}, False if _no_start(log) else _total(blocks)
+
+
+def _blocks(output: str) -> dict[str, str]:
+    """What was printed for each check."""
+    return dict(re.findall(r"^@@begin (\S+) *\n(.*?)^@@end \1 *$", output, re.MULTILINE | re.DOTALL))
+
+
+def _no_start(log: str) -> bool:
+    return "set of initial states is EMPTY" in log or "initial states set is empty" in log.lower()
+
+
+def _total(blocks: Mapping[str, str]) -> bool | None:
+    fsm = blocks.get("fsm", "")
+    return True if "is total" in fsm and "not total" not in fsm else False if fsm else None
 
 
 def log_says(log: str) -> tuple[dict[str, bool], bool | None]:

@@ -74,7 +74,7 @@ def run_campaign(wanted: Wanted, on_done: Callable[[str, int, int], None]) -> Re
     drivers = load_drivers(wanted.agents or shipped_agents())
     law = load_law(wanted.rules)
     scenarios = tuple(instance(resolve_scenario(s), wanted.instance) for s in wanted.scenarios or shipped_scenarios())
-    properties = _properties(wanted, law)
+    properties = wanted_properties(wanted, law)
     for driver in drivers:
         for scenario in scenarios:
             check_driver(driver, scenario)
@@ -83,7 +83,7 @@ def run_campaign(wanted: Wanted, on_done: Callable[[str, int, int], None]) -> Re
     answers: dict[int, tuple[tuple[Verdict, ...], dict[str, float]]] = {}
     # models are trees without cycles: looking for cycles among their many nodes finds nothing and takes a tenth of the time
     with ProcessPoolExecutor(max_workers=min(wanted.jobs, len(pairs)), initializer=gc.disable) as pool:
-        todo = {pool.submit(_prove, d, s, law, _applying(properties, s, law), wanted.timeout, wanted.output is not None): n for n, (d, s) in _hardest_first(pairs)}
+        todo = {pool.submit(_prove, d, s, law, applying(properties, s, law), wanted.timeout, wanted.output is not None): n for n, (d, s) in _hardest_first(pairs)}
         for done, future in enumerate(as_completed(todo), start=1):
             number = todo[future]
             answers[number] = future.result()
@@ -94,7 +94,7 @@ def run_campaign(wanted: Wanted, on_done: Callable[[str, int, int], None]) -> Re
         verdicts, timings = answers[number]
         for phase, seconds in timings.items():
             result.timings[phase] = result.timings.get(phase, 0.0) + seconds
-        for prop, verdict in zip(_applying(properties, scenario, law), verdicts, strict=True):
+        for prop, verdict in zip(applying(properties, scenario, law), verdicts, strict=True):
             if verdict.verdict == "violated":
                 verdict = replace(verdict, reason=why_violated(law.base, verdict.steps, verdict.loop))
             rows.append(_row(driver, scenario, wanted, prop, verdict, traces))
@@ -110,7 +110,7 @@ def _hardest_first(pairs: list[tuple[Driver, Scenario]]) -> list[tuple[int, tupl
     return sorted(enumerate(pairs), key=lambda pair: (-len(pair[1][1].traffic), -len(pair[1][1].percepts)))
 
 
-def _properties(wanted: Wanted, law: Law) -> tuple[Property, ...]:
+def wanted_properties(wanted: Wanted, law: Law) -> tuple[Property, ...]:
     loaded = [p for c in wanted.catalogues or ("",) for p in load_properties(c or None, law.base)]
     if wanted.names:
         known = {p.id for p in loaded}
@@ -121,7 +121,7 @@ def _properties(wanted: Wanted, law: Law) -> tuple[Property, ...]:
     return tuple(loaded)
 
 
-def _applying(properties: tuple[Property, ...], scenario: Scenario, law: Law) -> tuple[Property, ...]:
+def applying(properties: tuple[Property, ...], scenario: Scenario, law: Law) -> tuple[Property, ...]:
     """The properties asked in a scenario; in a mirrored world those of the world that it mirrors, mirrored too."""
     return tuple(asked for p in properties if (asked := _asked(p, scenario, law)) is not None)
 
