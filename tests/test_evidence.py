@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import json
 import shutil
+import subprocess
+import sys
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any
@@ -212,3 +214,16 @@ def test_hostile_names_are_text(copy: Path) -> None:
     assert result["ruleId"] == hostile and "<" not in result["locations"][0]["physicalLocation"]["artifactLocation"]["uri"]
     (copy / "\x1b[31mred").write_text("")
     assert "\x1b" not in rotra("evidence", "verify", copy).output
+
+
+def test_a_folder_that_is_no_bundle_is_left_alone(tmp_path: Path) -> None:
+    (tmp_path / "inputs").mkdir()
+    assert "IO104" in rotra("certify", "--agent", "reactive", "--scenario", "traffic_light", "-o", tmp_path).output
+    assert [p.name for p in tmp_path.iterdir()] == ["inputs"]
+
+
+def test_the_judge_uses_nothing_that_made_the_verdicts() -> None:
+    program = "import sys, rotra.evidence.check; print(*sorted(m for m in sys.modules if m.startswith('rotra.')))"
+    loaded = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, check=True).stdout.split()
+    assert "rotra.evidence.check" in loaded
+    assert not [m for m in loaded if m.split(".")[1] in ("lowering", "emitters", "pipeline", "frontends", "system")]

@@ -83,7 +83,7 @@ class Inputs:
 
 def certify(wanted: Wanted, folder: Path, key: Ed25519PrivateKey | None, on_done: Callable[[str, int, int], None]) -> list[dict[str, Any]]:
     """Write the bundle; its verdicts, as verdicts.json has them."""
-    if folder.exists() and (not folder.is_dir() or any(p.name not in bundle.TOP for p in folder.iterdir())):
+    if folder.exists() and not _replaceable(folder):
         raise Rejected([problem("IO104", Origin(str(folder)), "the output folder holds something else", "name an empty folder, or one that does not exist yet")])
     begun = time.monotonic()
     drivers = load_drivers(wanted.agents or shipped_agents())
@@ -112,6 +112,12 @@ def certify(wanted: Wanted, folder: Path, key: Ed25519PrivateKey | None, on_done
     files[bundle.RUN] = as_bytes({"time": time.strftime("%Y-%m-%dT%H:%M:%SZ", time.gmtime()), "machine": platform.platform(), "python": platform.python_version(), "seconds": seconds})
     _write(folder, files)
     return rows
+
+
+def _replaceable(folder: Path) -> bool:
+    """Is the folder empty, or a bundle that an earlier run wrote?"""
+    there = {p.name for p in folder.iterdir()} if folder.is_dir() else {""}
+    return not there or (bundle.STATEMENT in there and there <= bundle.TOP)
 
 
 def _collect(inputs: Inputs, drivers: tuple[Driver, ...], scenarios: list[Scenario], properties: tuple[Property, ...], law: Law, which: str) -> dict[str, Any]:
