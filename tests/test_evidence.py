@@ -180,6 +180,13 @@ def test_a_log_that_says_otherwise_supports_nothing(made: Path, copy: Path) -> N
     assert any("says violated" in f["fault"] for f in judged(copy, "--key", made / "key.pub")["faults"])
 
 
+def test_a_model_without_a_start_supports_nothing(made: Path, copy: Path) -> None:
+    log = copy / "logs" / "reactive" / "traffic_light.log"
+    log.write_text(log.read_text() + "The set of initial states is EMPTY\n")
+    rebound(copy, made / "key")
+    assert any("says unknown" in f["fault"] for f in judged(copy, "--key", made / "key.pub")["faults"])
+
+
 def test_a_trace_that_did_not_happen_supports_nothing(copy: Path) -> None:
     edited(copy, bundle.REPLAYS, lambda document: document[min(document)].update(happened=False))
     rebound(copy, None)

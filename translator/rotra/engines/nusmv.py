@@ -109,23 +109,6 @@ def _total(blocks: Mapping[str, str]) -> bool | None:
     return True if "is total" in fsm and "not total" not in fsm else False if fsm else None
 
 
-def log_says(log: str) -> tuple[dict[str, bool], bool | None]:
-    """Of a log that was kept: what it says of each check that it answers, and whether every reachable state has a successor."""
-    blocks = _blocks(log.replace("NuSMV > ", ""))
-    found = {name: _VERDICT.search(block) for name, block in blocks.items()}
-    return {name: verdict.group(1) == "true" for name, verdict in found.items() if verdict is not None}, _total(blocks)
-
-
-def _blocks(output: str) -> dict[str, str]:
-    """What was printed for each check."""
-    return dict(re.findall(r"^@@begin (\S+) *\n(.*?)^@@end \1 *$", output, re.MULTILINE | re.DOTALL))
-
-
-def _total(blocks: Mapping[str, str]) -> bool | None:
-    fsm = blocks.get("fsm", "")
-    return True if "is total" in fsm and "not total" not in fsm else False if fsm else None
-
-
 def _script(checks: Sequence[Check]) -> str:
     # the order of the declarations, one variable after the other: many times faster here than bits of all numbers interleaved
     # clusters twenty times the default: a few large relations, where the default makes many small steps of every image
