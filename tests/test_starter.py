@@ -65,7 +65,7 @@ def test_leaves_nothing_half_made(tmp_path: Path, monkeypatch: pytest.MonkeyPatc
 
 def test_lists_what_ships() -> None:
     found = shipped()
-    assert list(found) == ["agents", "scenarios", "rules", "properties"]
+    assert list(found) == ["agents", "scenarios", "mirrored scenarios", "rules", "properties"]
     for kind, entries in found.items():
         assert entries, kind
         assert all(about for about in entries.values()), kind
